@@ -17,7 +17,7 @@ from samplekit.errors import SamplekitError, UsageError
 API_VERSION = 1
 NAME = re.compile(r"^[a-z][a-z0-9-]*$")
 TARGET = re.compile(r"^[A-Za-z_][\w.]*:[A-Za-z_]\w*$")
-COUNTS = re.compile(r"^(any|products|squares|prime-squares|prime-cubes|powers-of-[1-9]\d*)$")
+COUNTS = re.compile(r"^(any|products|products-in-2|squares|prime-squares|prime-cubes|powers-of-[1-9]\d*)$")
 PROGRESSIVE = re.compile(r"^(no|every-count|powers-of-[1-9]\d*)$")
 
 OptionValue = int | float | str | bool
@@ -131,8 +131,9 @@ class Net:
 
 @dataclass(frozen=True)
 class LatinStrata:
-    """Promise: in every dimension each interval [i/N, (i+1)/N) holds exactly one of the N points."""
+    """Promise: in each of ``dims`` (None: in all) every interval [i/N, (i+1)/N) holds exactly one of the N points."""
 
+    dims: tuple[int, ...] | None = None
     keyword = "latin"
 
 
@@ -171,7 +172,6 @@ class _Spec:
     name: str
     target: str
     summary: str
-    _: Any = field(default=None, repr=False, compare=False, kw_only=True)
     options: tuple[Option, ...] = field(default=(), kw_only=True)
     reference: str = field(default="", kw_only=True)
     api_version: int = field(default=API_VERSION, kw_only=True)
@@ -241,7 +241,7 @@ class SamplerSpec(_Spec):
     progressive
         ``"no"``; ``"every-count"`` or ``"powers-of-B"``: points(M)[:N] == points(N), and prefixes of those lengths are good sets.
     counts
-        ``"any"``, ``"products"`` (a grid of near-equal sides), ``"squares"``, ``"prime-squares"``, ``"prime-cubes"``, ``"powers-of-B"``.
+        ``"any"``, ``"products"`` (a grid of near-equal sides over all dimensions), ``"products-in-2"`` (over each pair), ``"squares"``, ``"prime-squares"``, ``"prime-cubes"``, ``"powers-of-B"``.
     randomized
         Another seed, and another realisation, gives other points.
     unbiased

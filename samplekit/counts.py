@@ -1,0 +1,144 @@
+"""Which numbers of points a sampler can make, and the nearest to one that it cannot.
+
+The rules are the words of ``SamplerSpec.counts``. Nothing here imports NumPy.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import cache
+
+from samplekit.errors import UsageError
+
+LARGEST_ASPECT = 2
+"""A grid's longest side is at most this many times its shortest: beyond it strata are strips."""
+
+
+@cache
+def grid_sides(count: int, dims: int) -> tuple[int, ...] | None:
+    """The sides of the grid of ``count`` cells that is nearest to a cube, longest first; None if it would be strips.
+
+    ``grid_sides(96, 2)`` is (12, 8), ``grid_sides(97, 2)`` is None.
+    """
+    best: tuple[int, ...] | None = None
+    for sides in _factorizations(count, dims, count):
+        if sides[0] <= LARGEST_ASPECT * sides[-1] and (best is None or sides[0] / sides[-1] < best[0] / best[-1]):
+            best = sides
+    return best
+
+
+def _factorizations(count: int, dims: int, largest: int) -> list[tuple[int, ...]]:
+    """Ways to write ``count`` as a product of ``dims`` descending factors of near-equal size."""
+    if dims == 1:
+        return [(count,)] if count <= largest else []
+    mean = count ** (1 / dims)
+    # The first side is the longest: at least the mean, and at most the mean times the largest aspect.
+    low, high = math.floor(mean * (1 - 1e-9)), min(largest, math.ceil(mean * LARGEST_ASPECT))
+    return [
+        (side, *rest)
+        for side in range(max(1, low), high + 1)
+        if count % side == 0
+        for rest in _factorizations(count // side, dims - 1, side)
+    ]
+
+
+def _is_power(count: int, base: int) -> bool:
+    while base > 1 and count % base == 0:
+        count //= base
+    return count == 1
+
+
+def _is_prime(n: int) -> bool:
+    return n >= 2 and all(n % divisor for divisor in range(2, math.isqrt(n) + 1))
+
+
+def _root(count: int, degree: int) -> int:
+    """The integer whose power ``degree`` is ``count``, or 0."""
+    root = round(count ** (1 / degree))
+    return next((r for r in (root - 1, root, root + 1) if r >= 0 and r**degree == count), 0)
+
+
+def _rule(rule: str, dims: int) -> Callable[[int], bool]:
+    if rule == "any":
+        return lambda _: True
+    if rule == "products":
+        return lambda count: grid_sides(count, dims) is not None
+    if rule == "products-in-2":
+        return lambda count: grid_sides(count, 2) is not None
+    if rule == "squares":
+        return lambda count: _root(count, 2) > 0
+    if rule == "prime-squares":
+        return lambda count: _is_prime(_root(count, 2))
+    if rule == "prime-cubes":
+        return lambda count: _is_prime(_root(count, 3))
+    base = int(rule.rpartition("-")[2])
+    return lambda count: _is_power(count, base)
+
+
+def allows(rule: str, count: int, dims: int) -> bool:
+    """Whether a sampler of this rule makes ``count`` points in ``dims`` dimensions."""
+    return count >= 1 and _rule(rule, dims)(count)
+
+
+def nearest_below(rule: str, count: int, dims: int) -> int | None:
+    """The largest count below ``count`` that the rule allows; None if there is none."""
+    return next((n for n in _candidates(rule, count, dims, -1) if 1 <= n < count), None)
+
+
+def nearest_above(rule: str, count: int, dims: int) -> int:
+    """The smallest count above ``count`` that the rule allows."""
+    return next(n for n in _candidates(rule, count, dims, +1) if n > count)
+
+
+def _candidates(rule: str, count: int, dims: int, direction: int) -> list[int]:
+    """Allowed counts on one side of ``count``, nearest first: computed, where stepping by one would take for ever."""
+    count = max(count, 0)
+    degree = {"squares": 2, "prime-squares": 2, "prime-cubes": 3}.get(rule)
+    if degree:
+        root = math.floor(max(count, 1) ** (1 / degree) + 1e-9)
+        roots = range(root + 1, 0, -1) if direction < 0 else range(max(root - 1, 1), 2 * root + 8)
+        allowed = _is_prime if rule.startswith("prime") else lambda _: True
+        return [r**degree for r in roots if allowed(r) and (r**degree - count) * direction > 0][:1]
+    if rule.startswith("powers-of-"):
+        base = int(rule.rpartition("-")[2])
+        exponent = 0 if base == 1 else int(math.log(max(count, 1), base))
+        powers = [base ** max(exponent + step, 0) for step in ((1, 0, -1) if direction < 0 else (-1, 0, 1, 2))]
+        return [n for n in powers if (n - count) * direction > 0][:1]
+    test = _rule(rule, dims)
+    n = count + direction
+    while n >= 1:
+        if test(n):
+            return [n]
+        n += direction
+    return []
+
+
+def describe(rule: str) -> str:
+    """The rule in words: what a sampler of this rule makes."""
+    words = {
+        "any": "any number",
+        "products": "products of near-equal sides (a grid)",
+        "products-in-2": "products of two near-equal sides (a grid)",
+        "squares": "squares",
+        "prime-squares": "squares of primes",
+        "prime-cubes": "cubes of primes",
+    }
+    return words.get(rule, f"powers of {rule.rpartition('-')[2]}")
+
+
+def check_count(name: str, rule: str, count: int, dims: int) -> None:
+    """Raise unless a sampler called ``name`` makes ``count`` points.
+
+    Raises
+    ------
+    UsageError
+        Names the nearest counts below and above that it makes.
+    """
+    if count < 1:
+        raise UsageError(f"count {count}: expected at least 1")
+    if allows(rule, count, dims):
+        return
+    nearest = [str(n) for n in (nearest_below(rule, count, dims), nearest_above(rule, count, dims)) if n is not None]
+    where = "" if rule != "products" else f" in {dims} dimensions"
+    raise UsageError(f"{name} makes {describe(rule)}{where}, not {count}: the nearest are {' and '.join(nearest)}")

@@ -1,0 +1,108 @@
+"""A scene as a user chose it: name and options, checked against what it declares."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, TypeVar
+
+import numpy as np
+
+from samplekit.errors import SamplekitError, UsageError
+from samplekit.parsing import parse_choice
+from samplekit.registry import BUILTIN, Offer, registry
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from numpy.typing import NDArray
+
+    from samplekit.integration.scene import Scene
+    from samplekit.specs import SceneSpec
+
+
+T = TypeVar("T")
+
+
+class ConfiguredScene:
+    """What ``samplekit.scene("zoneplate:k=1024")`` returns.
+
+    Attributes
+    ----------
+    text
+        As it would be written on the command line.
+    spec
+        The declaration.
+    needs
+        Dimensions that the scene needs with these options, by purpose and in their order.
+    """
+
+    def __init__(self, offer: Offer, options: Mapping[str, object]) -> None:
+        spec: SceneSpec = offer.spec
+        values = spec.parse_options(options)
+        chosen = ",".join(f"{name}={value}" for name, value in values.items() if name in options)
+        self.text = f"{spec.name}:{chosen}" if chosen else spec.name
+        self.spec = spec
+        self.plugin = offer.plugin
+        self._trusted = offer.plugin.name == BUILTIN
+        implementation = spec.load()
+        keywords = {name.replace("-", "_"): value for name, value in values.items()}
+        self._scene: Scene = self._guarded("be set up", lambda: implementation(**keywords))
+        self.needs: dict[str, int] = dict(self._guarded("tell its dimensions", self._scene.dimensions))
+
+    def __repr__(self) -> str:
+        return f"<scene {self.text}>"
+
+    @property
+    def dims(self) -> int:
+        """Number of dimensions that the scene needs with these options."""
+        return sum(self.needs.values())
+
+    def sums(self, tile: NDArray[np.float64], boxes: NDArray[np.float64], out: NDArray[np.float64]) -> None:
+        """Sum the integrand over the samples of each pixel; see :meth:`Scene.sums`."""
+        if self._trusted:
+            self._scene.sums(tile, boxes, out)
+        else:
+            self._guarded("be evaluated", lambda: self._scene.sums(tile, boxes, out))
+
+    def exact(self, x_edges: NDArray[np.float64], y_edges: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The exact mean over each pixel; see :meth:`Scene.exact`."""
+        return self._image("give its reference", lambda: self._scene.exact(x_edges, y_edges), x_edges, y_edges)
+
+    def constant(self, x_edges: NDArray[np.float64], y_edges: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The value of each pixel that is provably constant, NaN elsewhere; see :meth:`Scene.constant`."""
+        return self._image("tell constant pixels", lambda: self._scene.constant(x_edges, y_edges), x_edges, y_edges)
+
+    def _image(
+        self,
+        what: str,
+        call: Callable[[], NDArray[np.float64]],
+        x_edges: NDArray[np.float64],
+        y_edges: NDArray[np.float64],
+    ) -> NDArray[np.float64]:
+        image = self._guarded(what, call)
+        if np.shape(image) != (y_edges.size - 1, x_edges.size - 1):
+            raise SamplekitError(f"scene {self.text} of plugin {self.plugin} cannot {what}: wrong shape {np.shape(image)}")
+        return np.asarray(image, np.float64)
+
+    def _guarded(self, what: str, call: Callable[[], T]) -> T:
+        try:
+            return call()
+        except UsageError:
+            raise
+        except Exception as error:
+            message = " ".join(str(error).split())
+            raise SamplekitError(
+                f"scene {self.spec.name} of plugin {self.plugin} cannot {what}: {type(error).__name__}: {message}"
+            ) from error
+
+
+def configured_scene(text: str, **options: object) -> ConfiguredScene:
+    """The scene written ``NAME[:option=value,...]``; options may also be given by keyword.
+
+    Raises
+    ------
+    UsageError
+        An unknown name or option, or a value that an option does not take.
+    """
+    choice = parse_choice(text, "scene")
+    given: dict[str, object] = {**choice.options, **{name.replace("_", "-"): value for name, value in options.items()}}
+    return ConfiguredScene(registry().find("scene", choice.name), given)

@@ -1,0 +1,150 @@
+"""The plan: what a rendering needs and what it leaves out, decided before anything runs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from samplekit.errors import UsageError
+from samplekit.parsing import check_crop
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from samplekit.integration.configured import ConfiguredScene
+    from samplekit.sampling.configured import ConfiguredSampler
+
+MOST_SAMPLES = 2**48
+"""Samples of one rendering: weeks of work; a larger request is a slip of the keyboard."""
+_BYTES_PER_PIXEL = 8 * 8
+_UNQUESTIONED_BYTES = 2**30
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A rendering that can be carried out: checked, and with its pixels sorted into sampled and constant.
+
+    Parameters
+    ----------
+    scene, sampler, count
+        What is integrated, with which points, how many in each pixel.
+    size
+        Width and height of the whole image, in pixels.
+    window
+        x, y, width, height of the part that is rendered.
+    seed
+        From 0 to 2^64 - 1.
+    full
+        Sample constant pixels as well.
+    reference
+        Compute the exact image and the error.
+    """
+
+    scene: ConfiguredScene
+    sampler: ConfiguredSampler
+    count: int
+    size: tuple[int, int]
+    window: tuple[int, int, int, int]
+    seed: int
+    full: bool
+    reference: bool
+
+    @cached_property
+    def x_edges(self) -> NDArray[np.float64]:
+        """Left edges of the window's columns and the right edge of the last: i / width, float64[w + 1]."""
+        x, _, w, _ = self.window
+        return np.arange(x, x + w + 1) / self.size[0]
+
+    @cached_property
+    def y_edges(self) -> NDArray[np.float64]:
+        """Top edges of the window's rows and the bottom edge of the last: j / height, float64[h + 1]."""
+        _, y, _, h = self.window
+        return np.arange(y, y + h + 1) / self.size[1]
+
+    @cached_property
+    def constant(self) -> NDArray[np.float64]:
+        """The value of each constant pixel, NaN where samples are needed: float64[h, w]."""
+        if self.full:
+            return np.full((self.window[3], self.window[2]), np.nan)
+        return self.scene.constant(self.x_edges, self.y_edges)
+
+    @cached_property
+    def sampled(self) -> NDArray[np.int64]:
+        """Flat indices, row by row, of the window's pixels that are sampled."""
+        return np.flatnonzero(np.isnan(self.constant.ravel()))
+
+    @property
+    def pixels(self) -> int:
+        """Number of pixels in the window."""
+        return self.window[2] * self.window[3]
+
+    def explain(self) -> list[str]:
+        """What is done and what is left out, one line each."""
+        left_out = self.pixels - self.sampled.size
+        needs = ", ".join(f"{purpose} {number}" for purpose, number in self.scene.needs.items())
+        unneeded = [purpose for purpose, _ in self.scene.spec.purposes if purpose not in self.scene.needs]
+        lines = [f"dimensions: {self.scene.dims} ({needs})"]
+        if unneeded:
+            lines.append(f"left out: the dimensions of {', '.join(unneeded)}: not needed with these options")
+        if self.full:
+            lines.append("pixels: all sampled (--full)")
+        else:
+            share = 100.0 * left_out / self.pixels
+            lines.append(
+                f"left out: {left_out} of {self.pixels} pixels ({share:.2f} %), in which the scene is proven constant"
+            )
+        lines.append(f"samples: {self.sampled.size} pixels x {self.count} = {self.sampled.size * self.count}")
+        if not self.reference:
+            lines.append("left out: the reference, the error and the metrics (--no-error)")
+        return lines
+
+
+def make_plan(
+    scene: ConfiguredScene,
+    sampler: ConfiguredSampler,
+    count: int,
+    *,
+    size: tuple[int, int],
+    crop: tuple[int, int, int, int] | None = None,
+    seed: int = 0,
+    full: bool = False,
+    reference: bool = True,
+) -> Plan:
+    """Check a request and plan it.
+
+    Raises
+    ------
+    UsageError
+        The sampler cannot give the points, the window is not inside the image, or it needs more memory or time than there is.
+    """
+    from samplekit.sampling.realizations import check_seed
+
+    check_seed(seed)
+    for side in size:
+        if isinstance(side, bool) or not isinstance(side, (int, np.integer)) or not 1 <= side <= 2**31:
+            raise UsageError(f"size {size[0]}x{size[1]}: expected width and height from 1 to {2**31}")
+    width, height = int(size[0]), int(size[1])
+    window = check_crop(crop, (width, height)) if crop else (0, 0, width, height)
+    sampler.check(count, scene.dims)
+    pixels = window[2] * window[3]
+    if pixels * count > MOST_SAMPLES:
+        raise UsageError(f"{pixels} pixels x {count} samples = {pixels * count:.3g}: at most {MOST_SAMPLES:.3g} in one image")
+    _check_memory(pixels)
+    return Plan(scene, sampler, int(count), (width, height), window, seed, full, reference)
+
+
+def _check_memory(pixels: int) -> None:
+    needed = pixels * _BYTES_PER_PIXEL
+    if needed <= _UNQUESTIONED_BYTES:
+        return
+    import psutil
+
+    available = psutil.virtual_memory().available
+    if needed > available:
+        raise UsageError(
+            f"an image of {pixels} pixels takes about {needed / 2**30:.1f} GiB of memory and {available / 2**30:.1f} GiB are"
+            " free: render it in parts with --crop X,Y,W,H"
+        )

@@ -1,0 +1,211 @@
+"""Rendering: a plan's pixels, in tiles and on threads, into an image with its reference and error."""
+
+from __future__ import annotations
+
+import os
+import threading
+import time
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from samplekit.errors import UsageError
+from samplekit.integration.estimator import Estimator, Seconds
+from samplekit.sampling.realizations import Realizations
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from samplekit.integration.plan import Plan
+
+_TILES_PER_JOB = 8
+
+
+@dataclass(frozen=True)
+class Rendering:
+    """A rendered image.
+
+    Attributes
+    ----------
+    image
+        float64[h, w].
+    reference, error
+        float64[h, w], the exact image and image - reference; None when they were left out.
+    metrics
+        Names of ``--json`` to numbers.
+    seconds
+        ``points`` and ``scene`` summed over threads, ``reference`` and ``total`` by the wall clock.
+    plan
+        What was rendered.
+    """
+
+    image: NDArray[np.float64]
+    reference: NDArray[np.float64] | None
+    error: NDArray[np.float64] | None
+    metrics: dict[str, float]
+    seconds: dict[str, float]
+    plan: Plan = field(repr=False)
+
+
+def default_threads() -> int:
+    """The processors that this process may use."""
+    if hasattr(os, "sched_getaffinity"):
+        return len(os.sched_getaffinity(0))
+    return os.cpu_count() or 1
+
+
+def render_plan(
+    plan: Plan,
+    *,
+    threads: int | None = None,
+    progress: Callable[[int, int], None] | None = None,
+    tile_bytes: int | None = None,
+    ssim: bool = False,
+    flip: bool = False,
+) -> Rendering:
+    """Carry out a plan.
+
+    Parameters
+    ----------
+    plan
+        From :func:`make_plan`.
+    threads
+        At least 1; None: as many as there are processors. The image does not depend on it.
+    progress
+        Called with the numbers of samples done and to do.
+    tile_bytes
+        Size of a tile of points. The image does not depend on it.
+    ssim, flip
+        Compute these metrics as well.
+
+    Raises
+    ------
+    UsageError
+        Fewer than one thread.
+    SamplekitError
+        A plugin failed.
+    """
+    threads = default_threads() if threads is None else threads
+    if isinstance(threads, bool) or not isinstance(threads, int) or not 1 <= threads <= 1024:
+        raise UsageError(f"threads {threads}: expected an integer from 1 to 1024")
+    began = time.perf_counter()
+    estimator = Estimator(plan.scene, plan.sampler, plan.count, **({"tile_bytes": tile_bytes} if tile_bytes else {}))
+    job_pixels = estimator.pixels_per_tile * _TILES_PER_JOB
+    image = np.empty(plan.pixels)
+    _fill_constant(image, plan, estimator)
+    jobs = [plan.sampled[first : first + job_pixels] for first in range(0, plan.sampled.size, job_pixels)]
+    clock = _Clock(progress, plan.sampled.size * plan.count)
+    if threads == 1 or len(jobs) <= 1:
+        for job in jobs:
+            image[job] = _means(job, plan, estimator, clock)
+    else:
+        _run_on_threads(jobs, threads, plan, estimator, clock, image)
+    invalid = plan.sampled[~np.isfinite(image[plan.sampled])]
+    metrics: dict[str, float] = {}
+    if invalid.size:
+        metrics["invalid_samples"] = estimator.invalid_samples(*_pixels(invalid, plan))
+        metrics["invalid_pixels"] = int(invalid.size)
+    shaped = image.reshape(plan.window[3], plan.window[2])
+    reference = error = None
+    reference_began = time.perf_counter()
+    if plan.reference:
+        from samplekit.metrics import metrics as image_metrics
+
+        reference = plan.scene.exact(plan.x_edges, plan.y_edges)
+        reference_seconds = time.perf_counter() - reference_began
+        error = shaped - reference
+        metrics |= image_metrics(shaped, reference, ssim=ssim, flip=flip)
+    metrics |= {
+        "samples": int(plan.sampled.size) * plan.count,
+        "dims": plan.scene.dims,
+        "pixels_sampled": int(plan.sampled.size),
+        "pixels_left_out": plan.pixels - int(plan.sampled.size),
+    }
+    seconds = {
+        "points": clock.seconds.points,
+        "scene": clock.seconds.scene,
+        "reference": reference_seconds if plan.reference else 0.0,
+        "total": time.perf_counter() - began,
+    }
+    return Rendering(shaped, reference, error, metrics, seconds, plan)
+
+
+class _Clock:
+    """Progress and times from all threads, and the word to stop."""
+
+    def __init__(self, progress: Callable[[int, int], None] | None, total: int) -> None:
+        self.seconds = Seconds()
+        self.stop = threading.Event()
+        self._progress = progress
+        self._total = total
+        self._done = 0
+        self._lock = threading.Lock()
+
+    def tick(self, samples: int) -> None:
+        if self.stop.is_set():
+            raise _StoppedError
+        if self._progress is not None:
+            with self._lock:
+                self._done += samples
+                self._progress(self._done, self._total)
+
+    def add(self, seconds: Seconds) -> None:
+        with self._lock:
+            self.seconds.points += seconds.points
+            self.seconds.scene += seconds.scene
+
+
+class _StoppedError(Exception):
+    """Another thread failed, or the user interrupted."""
+
+
+def _fill_constant(image: NDArray[np.float64], plan: Plan, estimator: Estimator) -> None:
+    constant = plan.constant.ravel()
+    known = ~np.isnan(constant)
+    values, place = np.unique(constant[known], return_inverse=True)
+    image[known] = np.array([estimator.mean_of_constant(float(value)) for value in values])[place]
+
+
+def _pixels(job: NDArray[np.int64], plan: Plan) -> tuple[Realizations, NDArray[np.float64]]:
+    """The realisations and the boxes float64[4, P] of some of the window's pixels."""
+    x0, y0, w, _ = plan.window
+    row, column = np.divmod(job, w)
+    boxes = np.stack(
+        [
+            plan.x_edges[column],
+            plan.x_edges[column + 1] - plan.x_edges[column],
+            plan.y_edges[row],
+            plan.y_edges[row + 1] - plan.y_edges[row],
+        ]
+    )
+    return Realizations.of_pixels(x0 + column, y0 + row, plan.seed), boxes
+
+
+def _means(job: NDArray[np.int64], plan: Plan, estimator: Estimator, clock: _Clock) -> NDArray[np.float64]:
+    seconds = Seconds()
+    means = estimator.means(*_pixels(job, plan), seconds, clock.tick)
+    clock.add(seconds)
+    return means
+
+
+def _run_on_threads(
+    jobs: list[NDArray[np.int64]],
+    threads: int,
+    plan: Plan,
+    estimator: Estimator,
+    clock: _Clock,
+    image: NDArray[np.float64],
+) -> None:
+    with ThreadPoolExecutor(threads) as pool:
+        futures = {pool.submit(_means, job, plan, estimator, clock): job for job in jobs}
+        try:
+            for future in as_completed(futures):
+                image[futures[future]] = future.result()
+        except BaseException:
+            clock.stop.set()
+            pool.shutdown(wait=True, cancel_futures=True)
+            raise

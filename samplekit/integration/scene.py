@@ -1,0 +1,62 @@
+"""The scene: an integrand over the unit square (and lens, time, direction) with its exact mean over a pixel."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from samplekit.numerics.summation import lane_sum
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from numpy.typing import NDArray
+
+
+class Scene:
+    """Base of all scenes. Options arrive by keyword, parsed; dashes in their names are underscores here.
+
+    A scene gives either ``value`` (NumPy, the simple door) or ``sums`` (a kernel, the fast door), and ``exact``.
+    """
+
+    def dimensions(self) -> Mapping[str, int]:
+        """Dimensions needed with these options, by purpose and in their order: ``{"pixel": 2}``."""
+        return {"pixel": 2}
+
+    def value(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The integrand at ``points`` float64[D, M]: rows x, y in scene coordinates, then the other purposes in [0, 1). float64[M]."""
+        raise NotImplementedError(f"{type(self).__name__} defines neither value nor sums")
+
+    def sums(self, tile: NDArray[np.float64], boxes: NDArray[np.float64], out: NDArray[np.float64]) -> None:
+        """Sum the integrand over the samples of each pixel.
+
+        Parameters
+        ----------
+        tile
+            float64[P, D, n], n <= 1024, C order: for each pixel samples in [0, 1)^D, dimension by dimension;
+            dimensions 0 and 1 are the place within the pixel.
+        boxes
+            float64[4, P], C order: left edge, width, top edge, height of each pixel. The sample u lies at left + u * width.
+        out
+            float64[P], receives the sums.
+        """
+        pixels, dims, count = tile.shape
+        points = np.empty((dims, pixels * count))
+        points[0] = (boxes[0][:, None] + tile[:, 0] * boxes[1][:, None]).ravel()
+        points[1] = (boxes[2][:, None] + tile[:, 1] * boxes[3][:, None]).ravel()
+        for dimension in range(2, dims):
+            points[dimension] = tile[:, dimension].ravel()
+        values = np.ascontiguousarray(self.value(points), np.float64)
+        if values.shape != (pixels * count,):
+            raise ValueError(f"value gave shape {values.shape} for {pixels * count} points")
+        for pixel, row in enumerate(values.reshape(pixels, count)):
+            out[pixel] = lane_sum(row, count)
+
+    def exact(self, x_edges: NDArray[np.float64], y_edges: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The exact mean over each pixel: float64[h, w] for edges float64[w + 1] and float64[h + 1], as stored."""
+        raise NotImplementedError(f"{type(self).__name__} has no reference")
+
+    def constant(self, x_edges: NDArray[np.float64], y_edges: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The value of each pixel in which the integrand is provably constant, NaN elsewhere: float64[h, w]."""
+        return np.full((y_edges.size - 1, x_edges.size - 1), np.nan)

@@ -1,0 +1,103 @@
+"""The command line's small languages: ``NAME[:option=value,...][+RANDOMIZER]``, counts, sizes and lists."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+
+from samplekit.errors import UsageError
+
+
+@dataclass(frozen=True)
+class Choice:
+    """A name with the options that were given, as text, and the name behind a plus sign."""
+
+    name: str
+    options: dict[str, str] = field(default_factory=dict)
+    randomizer: str | None = None
+
+
+def parse_choice(text: str, kind: str) -> Choice:
+    """Read ``NAME[:option=value,...][+RANDOMIZER]``; only a sampler takes a randomizer.
+
+    Raises
+    ------
+    UsageError
+        The text does not have this form.
+    """
+    chosen, *randomizers = re.split(r"\+(?=[A-Za-z])", text) if kind == "sampler" else [text]
+    if len(randomizers) > 1:
+        raise UsageError(f"{kind} {text!r}: one randomizer at most")
+    name, colon, rest = chosen.partition(":")
+    options: dict[str, str] = {}
+    for item in rest.split(",") if colon else []:
+        option, equals, value = item.partition("=")
+        if not equals or not option.strip() or not value.strip():
+            raise UsageError(f"{kind} {text!r}: expected NAME:option=value,... but found {item!r}")
+        if option.strip() in options:
+            raise UsageError(f"{kind} {text!r}: option {option.strip()!r} is given twice")
+        options[option.strip()] = value.strip()
+    if not re.fullmatch(r"[A-Za-z0-9/_.-]+", name):
+        raise UsageError(f"{kind} {text!r}: expected NAME or NAME:option=value,...")
+    return Choice(name, options, randomizers[0] if randomizers else None)
+
+
+def parse_count(text: str, what: str) -> int:
+    """Read a positive integer, plain or as a power: ``4096`` or ``2^12``.
+
+    Raises
+    ------
+    UsageError
+        Not a positive integer, or more than 2^63.
+    """
+    match = re.fullmatch(r"(\d{1,20})(?:\^(\d{1,3}))?", text.strip(), re.ASCII)
+    value = 0 if match is None else int(match[1]) ** int(match[2] or 1)
+    if not 1 <= value <= 2**63:
+        raise UsageError(f"{what} {text}: expected a positive integer such as 16 or 2^4")
+    return value
+
+
+def parse_size(text: str) -> tuple[int, int]:
+    """Read ``W`` or ``WxH`` as (width, height).
+
+    Raises
+    ------
+    UsageError
+        Not of this form, or zero.
+    """
+    match = re.fullmatch(r"(\d{1,9})(?:x(\d{1,9}))?", text.strip(), re.ASCII)
+    width, height = (0, 0) if match is None else (int(match[1]), int(match[2] or match[1]))
+    if width < 1 or height < 1:
+        raise UsageError(f"size {text}: expected W or WxH with both at least 1, such as 512 or 640x480")
+    return width, height
+
+
+def parse_crop(text: str, size: tuple[int, int]) -> tuple[int, int, int, int]:
+    """Read ``X,Y,W,H``, a rectangle inside an image of ``size``.
+
+    Raises
+    ------
+    UsageError
+        Not of this form, empty, or not inside.
+    """
+    match = re.fullmatch(r"(\d{1,9}),(\d{1,9}),(\d{1,9}),(\d{1,9})", text.strip(), re.ASCII)
+    if match is None:
+        raise UsageError(f"crop {text}: expected X,Y,W,H in pixels, such as 10,20,64,64")
+    x, y, w, h = (int(group) for group in match.groups())
+    return check_crop((x, y, w, h), size)
+
+
+def check_crop(crop: tuple[int, int, int, int], size: tuple[int, int]) -> tuple[int, int, int, int]:
+    """The crop, if it is a rectangle inside the image.
+
+    Raises
+    ------
+    UsageError
+        It is empty or not inside.
+    """
+    x, y, w, h = crop
+    if min(x, y) < 0 or min(w, h) < 1 or x + w > size[0] or y + h > size[1]:
+        raise UsageError(
+            f"crop {x},{y},{w},{h}: expected a rectangle X,Y,W,H inside the image of {size[0]}x{size[1]} pixels"
+        )
+    return crop

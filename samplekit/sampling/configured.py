@@ -1,0 +1,178 @@
+"""A sampler as a user chose it: name, options and randomizer, checked against what they declare."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from samplekit.counts import check_count
+from samplekit.errors import SamplekitError, UsageError
+from samplekit.parsing import parse_choice
+from samplekit.registry import BUILTIN, Offer, registry
+from samplekit.sampling.realizations import Realizations, check_seed
+from samplekit.sampling.sampler import Sampler
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from numpy.typing import NDArray
+
+    from samplekit.specs import OptionValue, RandomizerSpec, SamplerSpec
+
+
+class ConfiguredSampler:
+    """What ``samplekit.sampler("sobol+owen")`` returns.
+
+    Attributes
+    ----------
+    text
+        As it would be written on the command line.
+    spec
+        The declaration of the whole: the sampler's, as the randomizer changes it.
+    """
+
+    def __init__(self, offer: Offer, options: Mapping[str, object], randomizer: Offer | None = None) -> None:
+        spec: SamplerSpec = offer.spec
+        values = spec.parse_options(options)
+        self.plugin = offer.plugin
+        self.text = _text(spec.name, options, values) + (f"+{randomizer.spec.name}" if randomizer else "")
+        self._trusted = all(o.plugin.name == BUILTIN for o in (offer, randomizer) if o)
+        self._sampler: Sampler = _construct(offer, values)
+        if randomizer:
+            from samplekit.sampling.randomizer import RandomizedSampler
+
+            randomize = _construct(randomizer, randomizer.spec.parse_options({}))
+            self._sampler = RandomizedSampler(self._sampler, randomize, randomizer.spec.name)
+            spec = _randomized(spec, randomizer.spec)
+        self.spec = spec
+
+    def __repr__(self) -> str:
+        return f"<sampler {self.text}>"
+
+    @property
+    def streams(self) -> bool:
+        """Whether a part of a set costs a part of the whole."""
+        return self._sampler.streams
+
+    def check(self, count: int, dims: int) -> None:
+        """Raise unless this sampler makes sets of ``count`` points in ``dims`` dimensions.
+
+        Raises
+        ------
+        UsageError
+            Says what it makes, and the nearest counts.
+        """
+        least, most = self.spec.dimensions
+        if isinstance(dims, bool) or not isinstance(dims, (int, np.integer)) or dims < 1:
+            raise UsageError(f"dims {dims}: expected a positive integer")
+        if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < 1:
+            raise UsageError(f"count {count}: expected a positive integer")
+        if dims < least or (most is not None and dims > most):
+            span = f"{least}" if most == least else f"at least {least}" if most is None else f"{least} to {most}"
+            raise UsageError(f"{self.text} makes points in {span} dimensions, not {dims}")
+        if count - 1 > self.spec.largest_index:
+            raise UsageError(f"{self.text} makes at most {self.spec.largest_index + 1} points, not {count}")
+        check_count(self.text, self.spec.counts, int(count), int(dims))
+
+    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+        """Write points of the sets, see :meth:`Sampler.fill`; a plugin's points are checked, and its faults named.
+
+        Raises
+        ------
+        SamplekitError
+            The plugin raised, or wrote values outside [0, 1), or left some unwritten.
+        """
+        if self._trusted:
+            self._sampler.fill(out, realizations, count, start)
+            return
+        out.fill(np.nan)
+        try:
+            self._sampler.fill(out, realizations, count, start)
+        except Exception as error:
+            message = " ".join(str(error).split())
+            raise SamplekitError(
+                f"sampler {self.text} of plugin {self.plugin} failed: {type(error).__name__}: {message}"
+            ) from error
+        low, high = out.min(), out.max()
+        if not (low >= 0.0 and high < 1.0):
+            wrong = "NaN or values it did not write" if np.isnan(low) else f"{low if low < 0 else high!r}"
+            raise SamplekitError(f"sampler {self.text} of plugin {self.plugin} gave {wrong}: expected values in [0, 1)")
+
+    def points(
+        self, count: int, dims: int = 2, *, realizations: int = 1, seed: int = 0, start: int = 0, stop: int | None = None
+    ) -> NDArray[np.float64]:
+        """Points start to stop of sets of ``count`` points.
+
+        Parameters
+        ----------
+        count, dims, realizations
+            Size of a set, dimensions, number of sets: all at least 1.
+        seed
+            From 0 to 2^64 - 1.
+        start, stop
+            The slice of each set that is returned; by default all of it.
+
+        Returns
+        -------
+        float64[realizations, stop - start, dims], in [0, 1).
+
+        Raises
+        ------
+        UsageError
+            The sampler cannot make them.
+        """
+        self.check(count, dims)
+        check_seed(seed)
+        stop = count if stop is None else stop
+        if not 0 <= start < stop <= count:
+            raise UsageError(f"slice {start}:{stop}: expected 0 <= start < stop <= {count}")
+        if isinstance(realizations, bool) or not isinstance(realizations, (int, np.integer)) or realizations < 1:
+            raise UsageError(f"realizations {realizations}: expected a positive integer")
+        out = np.empty((int(realizations), int(dims), stop - start))
+        self.fill(out, Realizations.of_trials(0, int(realizations), seed), int(count), start)
+        return np.ascontiguousarray(out.transpose(0, 2, 1))
+
+
+def configured_sampler(text: str, **options: object) -> ConfiguredSampler:
+    """The sampler written ``NAME[:option=value,...][+RANDOMIZER]``; options may also be given by keyword.
+
+    Raises
+    ------
+    UsageError
+        An unknown name or option, or a value that an option does not take.
+    """
+    choice = parse_choice(text, "sampler")
+    given: dict[str, object] = {**choice.options, **{name.replace("_", "-"): value for name, value in options.items()}}
+    randomizer = registry().find("randomizer", choice.randomizer) if choice.randomizer else None
+    return ConfiguredSampler(registry().find("sampler", choice.name), given, randomizer)
+
+
+def _construct(offer: Offer, values: Mapping[str, OptionValue]) -> Sampler:
+    implementation = offer.spec.load()
+    keywords = {name.replace("-", "_"): value for name, value in values.items()}
+    try:
+        return implementation(**keywords)  # type: ignore[no-any-return]
+    except UsageError:
+        raise
+    except Exception as error:
+        message = " ".join(str(error).split())
+        raise SamplekitError(
+            f"{offer.spec.name} of plugin {offer.plugin} cannot be set up: {type(error).__name__}: {message}"
+        ) from error
+
+
+def _randomized(sampler: SamplerSpec, randomizer: RandomizerSpec) -> SamplerSpec:
+    return replace(
+        sampler,
+        randomized=True,
+        unbiased=randomizer.unbiased,
+        promises=tuple(promise for promise in sampler.promises if promise.keyword in randomizer.keeps),
+        largest_index=min(sampler.largest_index, 2**32 - 1),
+    )
+
+
+def _text(name: str, given: Mapping[str, object], values: Mapping[str, OptionValue]) -> str:
+    chosen = ",".join(f"{option}={values[option]}" for option in values if option in given)
+    return f"{name}:{chosen}" if chosen else name
