@@ -8,6 +8,9 @@ from dataclasses import dataclass, field
 from samplekit.errors import UsageError
 
 
+LARGEST_SEED = 2**64 - 1
+
+
 @dataclass(frozen=True)
 class Choice:
     """A name with the options that were given, as text, and the name behind a plus sign."""
@@ -55,6 +58,19 @@ def parse_count(text: str, what: str) -> int:
     if not 1 <= value <= 2**63:
         raise UsageError(f"{what} {text}: expected a positive integer such as 16 or 2^4")
     return value
+
+
+def parse_seed(text: str) -> int:
+    """Read a seed.
+
+    Raises
+    ------
+    UsageError
+        Not an integer from 0 to 2^64 - 1.
+    """
+    if not re.fullmatch(r"\d{1,20}", text.strip(), re.ASCII) or int(text) > LARGEST_SEED:
+        raise UsageError(f"seed {text}: expected an integer from 0 to {LARGEST_SEED}")
+    return int(text)
 
 
 def parse_size(text: str) -> tuple[int, int]:

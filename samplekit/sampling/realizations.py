@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit.errors import UsageError
+from samplekit.parsing import LARGEST_SEED
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-LARGEST_SEED = 2**64 - 1
 LARGEST_COORDINATE = 2**32 - 1
 
 
@@ -66,6 +66,14 @@ class Realizations:
         """Realisations start to stop: the pixels (start, 0) to (stop - 1, 0)."""
         x = np.arange(start, stop, dtype=np.int64)
         return cls.of_pixels(x, np.zeros_like(x), seed)
+
+    def random_words(self, dims: int) -> NDArray[np.uint64]:
+        """64 random bits for each realisation and dimension, uint64[R, dims]: for shifts and the like, in NumPy.
+
+        A word depends on key and dimension alone.
+        """
+        dimension = np.arange(1, dims + 1, dtype=np.uint64) * np.uint64(0xD1342543DE82EF95)
+        return _mix64(_mix64(self.keys[:, None] ^ dimension) + np.uint64(0x9E3779B97F4A7C15))
 
     def __len__(self) -> int:
         return int(self.keys.size)

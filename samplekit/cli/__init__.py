@@ -1,0 +1,97 @@
+"""The command line. Each command is a file; its imports are inside its body, so that ``--help`` and ``--version`` start fast."""
+
+from __future__ import annotations
+
+import os
+import sys
+from typing import Annotated, Any
+
+import typer
+
+from samplekit import __version__
+from samplekit.cli.info import info
+from samplekit.cli.listing import list_
+from samplekit.cli.plugin_commands import PluginGroup
+from samplekit.cli.points import points
+from samplekit.cli.render import render
+from samplekit.errors import SamplekitError, UsageError
+
+DONE, FAILED, WRONG_USE, CHECK_FAILED, INTERRUPTED = 0, 1, 2, 3, 130
+
+# typer does not export the bases of its own exceptions, and they live in a private module.
+_TyperUsageError: type[Exception] = typer.BadParameter.__mro__[1]
+_TyperError: type[Exception] = typer.BadParameter.__mro__[2]
+
+app = typer.Typer(
+    name="samplekit",
+    help="A laboratory for the point samplers of rendering.",
+    cls=PluginGroup,
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"samplekit {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _main(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and leave.")
+    ] = False,
+) -> None:
+    """A laboratory for the point samplers of rendering."""
+
+
+app.command("render")(render)
+app.command("points")(points)
+app.command("list")(list_)
+app.command("info")(info)
+
+
+def main() -> None:
+    """Run the command line; every error ends in one line on stderr and an exit status."""
+    sys.exit(run(sys.argv[1:]))
+
+
+def run(arguments: list[str]) -> int:
+    """Run one command and return its exit status: 0 done, 1 failed, 2 wrong use, 3 a check failed, 130 interrupted."""
+    try:
+        result = app(args=arguments, prog_name="samplekit", standalone_mode=False)
+        return result if isinstance(result, int) else DONE
+    except (UsageError, _TyperUsageError) as error:
+        return _failed(_message(error), WRONG_USE, arguments)
+    except (SamplekitError, _TyperError) as error:
+        return _failed(_message(error), FAILED, arguments)
+    except (KeyboardInterrupt, typer.Abort):
+        print("samplekit: interrupted", file=sys.stderr)  # noqa: T201
+        return INTERRUPTED
+    except BrokenPipeError:
+        # The reader left: nothing more can be said on stdout, and Python must not try when it exits.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return FAILED
+    except MemoryError:
+        return _failed("out of memory", FAILED, arguments)
+    except Exception as error:
+        if os.environ.get("SAMPLEKIT_TRACEBACK"):
+            raise
+        what = " ".join(f"{type(error).__name__}: {error}".split())
+        return _failed(f"internal error: {what} (SAMPLEKIT_TRACEBACK=1 shows where)", FAILED, arguments)
+
+
+def _message(error: Exception) -> str:
+    formatted: Any = getattr(error, "format_message", lambda: str(error))
+    return " ".join(str(formatted()).split())
+
+
+def _failed(message: str, status: int, arguments: list[str]) -> int:
+    if "--json" in arguments:
+        import json
+
+        print(json.dumps({"schema": "samplekit.error/1", "error": message}))  # noqa: T201
+    print(f"samplekit: {message}", file=sys.stderr)  # noqa: T201
+    return status

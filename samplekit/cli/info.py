@@ -1,0 +1,41 @@
+"""``samplekit info``: how an image was made."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from samplekit.cli.options import JsonOption
+
+
+def info(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="An image that samplekit wrote, EXR or PNG.")],
+    json: JsonOption = False,
+) -> None:
+    """Show how an image was made: the command that makes it again, versions, seed, metrics.
+
+    Example: samplekit info zoneplate-hammersley-16spp.exr
+    """
+    from samplekit.images.info import read_info
+
+    found = read_info(file)
+    if json:
+        from json import dumps
+
+        typer.echo(dumps({"schema": "samplekit.info/1", "file": str(file), **found}, allow_nan=False))
+        return
+    for line in _lines(found, ""):
+        typer.echo(line)
+
+
+def _lines(values: dict[str, Any], indent: str) -> list[str]:
+    lines: list[str] = []
+    for name, value in values.items():
+        if isinstance(value, dict):
+            lines += [f"{indent}{name}", *_lines(value, indent + "  ")]
+        else:
+            text = ", ".join(str(item) for item in value) if isinstance(value, list) else str(value)
+            lines.append(f"{indent}{name:<{18 - len(indent)}}{text}")
+    return lines

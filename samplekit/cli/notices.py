@@ -1,0 +1,23 @@
+"""A word on stderr when something takes longer the first time."""
+
+from __future__ import annotations
+
+import sys
+from typing import Any
+
+
+def announce_compilation() -> None:
+    """Say once, when the first kernel is compiled instead of being loaded from the cache, what is going on."""
+    from numba.core import event
+
+    class _Announcement(event.Listener):
+        said = False
+
+        def on_start(self, event: Any) -> None:  # noqa: ARG002
+            if not self.said:
+                self.said = True
+                print("samplekit: compiling kernels for this machine, once (some seconds)", file=sys.stderr)  # noqa: T201
+
+        def on_end(self, event: Any) -> None: ...
+
+    event.register("numba:compile", _Announcement())

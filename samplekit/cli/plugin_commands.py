@@ -1,0 +1,65 @@
+"""Commands from plugins: found when a name is not one of ours, imported when they run."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import typer
+from typer.core import TyperGroup
+
+
+class PluginGroup(TyperGroup):
+    """The group of all commands: ours first, which nobody can replace, then those that plugins declare."""
+
+    def list_commands(self, ctx: Any) -> list[str]:
+        """Our commands in the order of their making, then plugins' commands, sorted."""
+        from samplekit.registry import registry
+
+        own = super().list_commands(ctx)
+        return [*own, *(name for name in registry().all("command") if name not in own)]
+
+    def get_command(self, ctx: Any, cmd_name: str) -> Any:
+        """Our command of that name, else the plugin's; unknown names get the nearest."""
+        own = super().get_command(ctx, cmd_name)
+        if own is not None:
+            return own
+        from samplekit.errors import UsageError
+        from samplekit.registry import registry
+
+        try:
+            offer = registry().find("command", cmd_name)
+        except UsageError as error:
+            raise UsageError(_unknown(cmd_name, super().list_commands(ctx), str(error))) from None
+        if ctx.resilient_parsing or _only_listing(ctx):
+            # Help and completion need the declaration alone.
+            return typer.main.get_command(_described(offer.spec.name, offer.spec.summary))
+        single = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
+        single.command(offer.spec.name, help=offer.spec.summary)(offer.spec.load())
+        return typer.main.get_command(single)
+
+
+def _only_listing(ctx: Any) -> bool:
+    """Whether the whole group is shown: then no command has been chosen, and no plugin needs importing."""
+    return not getattr(ctx, "_protected_args", None) and not ctx.args and ctx.invoked_subcommand is None
+
+
+def _described(name: str, summary: str) -> typer.Typer:
+    app = typer.Typer(add_completion=False)
+
+    @app.command(name, help=summary)
+    def _command() -> None: ...
+
+    return app
+
+
+def _unknown(name: str, own: list[str], reason: str) -> str:
+    import difflib
+
+    near = difflib.get_close_matches(name, own, n=1, cutoff=0.5)
+    if near:
+        return f"unknown command {name!r}: did you mean {near[0]}?"
+    from samplekit.registry import registry
+
+    others = registry().all("command")
+    _, _, plugins = reason.partition(" (plugins ")
+    return f"unknown command {name!r}: there are {', '.join([*own, *others])}" + (f" (plugins {plugins}" if plugins else "")

@@ -1,0 +1,158 @@
+"""``samplekit render``: a test image, its exact reference and its error."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from samplekit.cli.completion import complete_sampler, complete_scene
+from samplekit.cli.options import JsonOption, SeedOption
+
+if TYPE_CHECKING:
+    from samplekit.integration.plan import Plan
+    from samplekit.integration.renderer import Rendering
+
+
+def render(
+    sampler: Annotated[
+        str,
+        typer.Option(
+            "--sampler",
+            "-s",
+            metavar="NAME[:OPTION=VALUE,...][+RANDOMIZER]",
+            help="The sampler, such as hammersley or sobol+owen.",
+            autocompletion=complete_sampler,
+        ),
+    ],
+    spp: Annotated[str, typer.Option("--spp", "-n", metavar="N", help="Samples per pixel.")],
+    scene: Annotated[
+        str,
+        typer.Option(
+            "--scene", metavar="NAME[:OPTION=VALUE,...]", help="What is rendered.", autocompletion=complete_scene
+        ),
+    ] = "zoneplate",
+    size: Annotated[str, typer.Option("--size", metavar="W[xH]", help="Size of the image in pixels.")] = "512",
+    crop: Annotated[str, typer.Option("--crop", metavar="X,Y,W,H", help="Render this part of the image alone.")] = "",
+    seed: SeedOption = "0",
+    output: Annotated[
+        str, typer.Option("--output", "-o", metavar="PATH", help="A folder, or STEM.exr; by default the current folder.")
+    ] = "",
+    no_error: Annotated[
+        bool, typer.Option("--no-error", help="Leave out the reference, the error and the metrics.")
+    ] = False,
+    full: Annotated[bool, typer.Option("--full", help="Sample pixels in which the scene is constant as well.")] = False,
+    threads: Annotated[
+        str, typer.Option("--threads", "-t", metavar="T", help="Threads; by default one for each processor.")
+    ] = "",
+    ssim: Annotated[bool, typer.Option("--ssim", help="Report structural similarity as well.")] = False,
+    flip: Annotated[bool, typer.Option("--flip", help="Report the perceived difference FLIP as well.")] = False,
+    explain: Annotated[bool, typer.Option("--explain", help="Say what is left out, and why.")] = False,
+    json: JsonOption = False,
+) -> int:
+    """Render a test image by integrating every pixel with samples.
+
+    Writes STEM.exr (image, exact reference, error), STEM.png and STEM.error.png, and prints how large the error is.
+
+    Example: samplekit render --sampler hammersley --spp 16
+    """
+    from samplekit.cli.notices import announce_compilation
+
+    announce_compilation()
+    from samplekit.cli.progress import Progress
+    from samplekit.integration.configured import configured_scene
+    from samplekit.integration.plan import make_plan
+    from samplekit.integration.renderer import render_plan
+    from samplekit.parsing import parse_count, parse_crop, parse_seed, parse_size
+    from samplekit.sampling.configured import configured_sampler
+
+    if no_error and (ssim or flip):
+        from samplekit.errors import UsageError
+
+        raise UsageError("--ssim and --flip compare with the reference, which --no-error leaves out")
+    width_height = parse_size(size)
+    thread_count = parse_count(threads, "threads") if threads else None
+    plan = make_plan(
+        configured_scene(scene),
+        configured_sampler(sampler),
+        parse_count(spp, "spp"),
+        size=width_height,
+        crop=parse_crop(crop, width_height) if crop else None,
+        seed=parse_seed(seed),
+        full=full,
+        reference=not no_error,
+    )
+    stem = _stem(output, plan)
+    if explain:
+        for line in plan.explain():
+            typer.echo(line, err=True)
+    with Progress("rendering") as progress:
+        rendering = render_plan(plan, threads=thread_count, progress=progress, ssim=ssim, flip=flip)
+    files = _write(stem, rendering)
+    _report(rendering, files, json)
+    invalid = int(rendering.metrics.get("invalid_pixels", 0))
+    if invalid:
+        from samplekit.errors import SamplekitError
+
+        samples = int(rendering.metrics["invalid_samples"])
+        message = f"{samples} samples of {plan.scene.text} were not finite, in {invalid} pixels: shown in magenta"
+        if json:
+            typer.echo(f"samplekit: {message}", err=True)
+            return 1
+        raise SamplekitError(message)
+    return 0
+
+
+def _stem(output: str, plan: Plan) -> Path:
+    """The path of the files without their endings, checked before any work is done."""
+    from samplekit.images.rendering import check_stem
+
+    name = f"{plan.scene.text}-{plan.sampler.text}-{plan.count}spp".replace(":", "-").replace("/", "-")
+    return check_stem(output, name)
+
+
+def _write(stem: Path, rendering: Rendering) -> list[Path]:
+    from samplekit.images.rendering import write_rendering
+    from samplekit.provenance import describe
+
+    plan = rendering.plan
+    x, y = plan.window[:2]
+    return write_rendering(
+        stem,
+        rendering.image,
+        rendering.reference,
+        rendering.error,
+        describe(rendering),
+        window=(x, y, *plan.size),
+    )
+
+
+def _report(rendering: Rendering, files: list[Path], as_json: bool) -> None:
+    from samplekit.provenance import SCHEMA, finite
+
+    plan = rendering.plan
+    if as_json:
+        import json
+
+        report: dict[str, Any] = {
+            "schema": SCHEMA,
+            "sampler": plan.sampler.text,
+            "scene": plan.scene.text,
+            "spp": plan.count,
+            "size": list(plan.size),
+            "window": list(plan.window),
+            "seed": plan.seed,
+            **finite(rendering.metrics),
+            "seconds": rendering.seconds,
+            "files": [str(file) for file in files],
+        }
+        typer.echo(json.dumps(report, allow_nan=False))
+        return
+    typer.echo(f"{plan.scene.text}, {plan.sampler.text}, {plan.count} spp, {plan.size[0]}x{plan.size[1]}, seed {plan.seed}")
+    for name, number in rendering.metrics.items():
+        typer.echo(f"  {name:<16}{number if isinstance(number, int) else f'{number:.6g}'}")
+    times = ", ".join(f"{name} {seconds:.3f}" for name, seconds in rendering.seconds.items())
+    typer.echo(f"  {'seconds':<16}{times}")
+    for file in files:
+        typer.echo(f"  {'wrote':<16}{file}")

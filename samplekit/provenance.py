@@ -1,0 +1,63 @@
+"""How an image was made: what ``samplekit info`` reads back, enough to make it again."""
+
+from __future__ import annotations
+
+import math
+import platform
+from importlib.metadata import version
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from samplekit.integration.plan import Plan
+    from samplekit.integration.renderer import Rendering
+
+SCHEMA = "samplekit.rendering/1"
+_LIBRARIES = ("numpy", "numba", "scipy", "OpenImageIO")
+
+
+def versions() -> dict[str, str]:
+    """The versions of samplekit, of Python and of the libraries that numbers depend on."""
+    from samplekit import __version__
+
+    return {"samplekit": __version__, "python": platform.python_version()} | {name: version(name) for name in _LIBRARIES}
+
+
+def command(plan: Plan) -> str:
+    """The command that makes this image: without what the image does not depend on (output, threads)."""
+    words = ["samplekit render", f"--scene {plan.scene.text}", f"--sampler {plan.sampler.text}", f"--spp {plan.count}"]
+    words.append(f"--size {plan.size[0]}x{plan.size[1]}")
+    if plan.window != (0, 0, *plan.size):
+        words.append("--crop " + ",".join(str(number) for number in plan.window))
+    words.append(f"--seed {plan.seed}")
+    if plan.full:
+        words.append("--full")
+    if not plan.reference:
+        words.append("--no-error")
+    return " ".join(words)
+
+
+def describe(rendering: Rendering) -> dict[str, Any]:
+    """The provenance of a rendering; the same for the same command, so no times and no paths."""
+    plan = rendering.plan
+    return {
+        "schema": SCHEMA,
+        "command": command(plan),
+        "versions": versions(),
+        "seed": str(plan.seed),
+        "sampler": plan.sampler.text,
+        "sampler_plugin": str(plan.sampler.plugin),
+        "scene": plan.scene.text,
+        "scene_plugin": str(plan.scene.plugin),
+        "spp": plan.count,
+        "dimensions": dict(plan.scene.needs),
+        "size": list(plan.size),
+        "window": list(plan.window),
+        "metrics": finite(rendering.metrics),
+    }
+
+
+def finite(numbers: Mapping[str, float]) -> dict[str, float | None]:
+    """The numbers for JSON, which knows no infinity: those that are not finite become null."""
+    return {name: number if math.isfinite(number) else None for name, number in numbers.items()}
