@@ -164,6 +164,7 @@ def estimate(
     check_seed(seed)
     if isinstance(realizations, bool) or not isinstance(realizations, (int, np.integer)) or realizations < 1:
         raise UsageError(f"realizations {realizations}: expected a positive integer")
+    source.prepare(int(count), integrand.dims)
     boxes = np.repeat(np.array(UNIT_SQUARE)[:, None], realizations, axis=1)
     return Estimator(integrand, source, int(count)).means(
         Realizations.of_trials(0, int(realizations), seed), boxes, Seconds()

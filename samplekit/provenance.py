@@ -48,6 +48,7 @@ def describe(rendering: Rendering) -> dict[str, Any]:
         "seed": str(plan.seed),
         "sampler": plan.sampler.text,
         "sampler_plugin": str(plan.sampler.plugin),
+        "sampler_notes": plan.sampler.notes(plan.count, plan.scene.dims),
         "scene": plan.scene.text,
         "scene_plugin": str(plan.scene.plugin),
         "spp": plan.count,

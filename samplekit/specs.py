@@ -252,6 +252,9 @@ class SamplerSpec(_Spec):
         Largest index of a point.
     promises
         Properties that hold exactly, for every realisation.
+    fresh_options
+        Options under which every realisation is made afresh, for samplers that otherwise reuse sets: studies of expected
+        spectra and variances set them.
     expected_failures
         Check name to reason, for what is known not to hold.
     """
@@ -264,6 +267,7 @@ class SamplerSpec(_Spec):
     period: int | None = field(default=None, kw_only=True)
     largest_index: int = field(default=2**32 - 1, kw_only=True)
     promises: tuple[Promise, ...] = field(default=(), kw_only=True)
+    fresh_options: Mapping[str, OptionValue] = field(default_factory=dict, kw_only=True)
     expected_failures: Mapping[str, str] = field(default_factory=dict, kw_only=True)
 
     def __post_init__(self) -> None:

@@ -87,8 +87,10 @@ def render(
     if explain:
         for line in plan.explain():
             typer.echo(line, err=True)
-    with Progress("rendering") as progress:
-        rendering = render_plan(plan, threads=thread_count, progress=progress, ssim=ssim, flip=flip)
+    with Progress("rendering") as progress, Progress("preparing point sets") as preparing:
+        rendering = render_plan(
+            plan, threads=thread_count, progress=progress, preparing=preparing, ssim=ssim, flip=flip
+        )
     files = _write(stem, rendering)
     _report(rendering, files, json)
     invalid = int(rendering.metrics.get("invalid_pixels", 0))

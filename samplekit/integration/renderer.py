@@ -38,7 +38,7 @@ class Rendering:
     metrics
         Names of ``--json`` to numbers.
     seconds
-        ``points`` and ``scene`` summed over threads, ``reference`` and ``total`` by the wall clock.
+        ``setup`` (what the sets share), ``points`` and ``scene`` summed over threads, ``reference`` and ``total`` by the wall clock.
     plan
         What was rendered.
     """
@@ -63,6 +63,7 @@ def render_plan(
     *,
     threads: int | None = None,
     progress: Callable[[int, int], None] | None = None,
+    preparing: Callable[[int, int], None] = lambda _, __: None,
     tile_bytes: int | None = None,
     ssim: bool = False,
     flip: bool = False,
@@ -77,6 +78,8 @@ def render_plan(
         At least 1; None: as many as there are processors. The image does not depend on it.
     progress
         Called with the numbers of samples done and to do.
+    preparing
+        Called with the numbers of steps done and to do while the sampler makes what its sets share.
     tile_bytes
         Size of a tile of points. The image does not depend on it.
     ssim, flip
@@ -94,6 +97,8 @@ def render_plan(
         raise UsageError(f"threads {threads}: expected an integer from 1 to 1024")
     began = time.perf_counter()
     estimator = Estimator(plan.scene, plan.sampler, plan.count, **({"tile_bytes": tile_bytes} if tile_bytes else {}))
+    plan.sampler.prepare(plan.count, plan.scene.dims, preparing)
+    setup_seconds = time.perf_counter() - began
     job_pixels = estimator.pixels_per_tile * _TILES_PER_JOB
     image = np.empty(plan.pixels)
     _fill_constant(image, plan, estimator)
@@ -126,6 +131,7 @@ def render_plan(
         "pixels_left_out": plan.pixels - int(plan.sampled.size),
     }
     seconds = {
+        "setup": setup_seconds,
         "points": clock.seconds.points,
         "scene": clock.seconds.scene,
         "reference": reference_seconds if plan.reference else 0.0,

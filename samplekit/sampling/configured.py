@@ -15,7 +15,7 @@ from samplekit.sampling.realizations import Realizations, check_seed
 from samplekit.sampling.sampler import Sampler
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from numpy.typing import NDArray
 
@@ -39,7 +39,10 @@ class ConfiguredSampler:
         self.plugin = offer.plugin
         self.text = _text(spec.name, options, values) + (f"+{randomizer.spec.name}" if randomizer else "")
         self._trusted = all(o.plugin.name == BUILTIN for o in (offer, randomizer) if o)
+        self._offers = offer, randomizer
+        self._options = dict(options)
         self._sampler: Sampler = _construct(offer, values)
+        spec = self._sampler.refine(spec)
         if randomizer:
             from samplekit.sampling.randomizer import RandomizedSampler
 
@@ -55,6 +58,33 @@ class ConfiguredSampler:
     def streams(self) -> bool:
         """Whether a part of a set costs a part of the whole."""
         return self._sampler.streams
+
+    def fresh(self) -> ConfiguredSampler:
+        """This sampler with every realisation made afresh: itself, unless it reuses sets."""
+        offer, randomizer = self._offers
+        fresh_options = offer.spec.fresh_options
+        if all(offer.spec.parse_options(self._options)[name] == value for name, value in fresh_options.items()):
+            return self
+        return ConfiguredSampler(offer, {**self._options, **fresh_options}, randomizer)
+
+    def prepare(self, count: int, dims: int, progress: Callable[[int, int], None] = lambda _, __: None) -> None:
+        """Make what all such sets share; see :meth:`Sampler.prepare`.
+
+        Raises
+        ------
+        SamplekitError
+            The plugin raised.
+        """
+        try:
+            self._sampler.prepare(count, dims, progress)
+        except SamplekitError:
+            raise
+        except Exception as error:
+            raise self._failure(error) from error
+
+    def notes(self, count: int, dims: int) -> list[str]:
+        """What a user of these sets should know; see :meth:`Sampler.notes`."""
+        return self._sampler.notes(count, dims)
 
     def check(self, count: int, dims: int) -> None:
         """Raise unless this sampler makes sets of ``count`` points in ``dims`` dimensions.
@@ -91,14 +121,15 @@ class ConfiguredSampler:
         try:
             self._sampler.fill(out, realizations, count, start)
         except Exception as error:
-            message = " ".join(str(error).split())
-            raise SamplekitError(
-                f"sampler {self.text} of plugin {self.plugin} failed: {type(error).__name__}: {message}"
-            ) from error
+            raise self._failure(error) from error
         low, high = out.min(), out.max()
         if not (low >= 0.0 and high < 1.0):
             wrong = "NaN or values it did not write" if np.isnan(low) else f"{low if low < 0 else high!r}"
             raise SamplekitError(f"sampler {self.text} of plugin {self.plugin} gave {wrong}: expected values in [0, 1)")
+
+    def _failure(self, error: Exception) -> SamplekitError:
+        message = " ".join(str(error).split())
+        return SamplekitError(f"sampler {self.text} of plugin {self.plugin} failed: {type(error).__name__}: {message}")
 
     def points(
         self, count: int, dims: int = 2, *, realizations: int = 1, seed: int = 0, start: int = 0, stop: int | None = None
@@ -130,6 +161,7 @@ class ConfiguredSampler:
             raise UsageError(f"slice {start}:{stop}: expected 0 <= start < stop <= {count}")
         if isinstance(realizations, bool) or not isinstance(realizations, (int, np.integer)) or realizations < 1:
             raise UsageError(f"realizations {realizations}: expected a positive integer")
+        self.prepare(int(count), int(dims))
         out = np.empty((int(realizations), int(dims), stop - start))
         self.fill(out, Realizations.of_trials(0, int(realizations), seed), int(count), start)
         return np.ascontiguousarray(out.transpose(0, 2, 1))

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 from samplekit.sampling.sampler import Sampler
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import numpy as np
     from numpy.typing import NDArray
 
@@ -39,6 +41,14 @@ class RandomizedSampler(Sampler):
             return
         self._sampler.fill(out, realizations, count, start)
         self._randomizer.apply(out, realizations, self.bases(out.shape[1]))
+
+    def prepare(self, count: int, dims: int, progress: Callable[[int, int], None]) -> None:
+        """As the sampler."""
+        self._sampler.prepare(count, dims, progress)
+
+    def notes(self, count: int, dims: int) -> list[str]:
+        """As the sampler."""
+        return self._sampler.notes(count, dims)
 
     def bases(self, dims: int) -> tuple[int, ...]:
         """The bases of the sampler."""

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    from samplekit.specs import SamplerSpec
+
     Fill = Callable[[NDArray[np.float64], Realizations, int, int], None]
 
 
@@ -54,6 +56,20 @@ class Sampler:
     def draw(self, count: int, dims: int, rng: np.random.Generator) -> NDArray[np.float64]:
         """One set of ``count`` points, float64[count, dims] in [0, 1), made with ``rng`` alone."""
         raise NotImplementedError(f"{type(self).__name__} defines neither fill nor draw")
+
+    def prepare(self, count: int, dims: int, progress: Callable[[int, int], None]) -> None:
+        """Make what all sets of this kind share (tables, a bank of sets), called once before many are filled.
+
+        ``progress`` takes the numbers of steps done and to do. Without this call ``fill`` gives the same points.
+        """
+
+    def notes(self, count: int, dims: int) -> list[str]:
+        """What a user of these sets should know, such as that they come from a bank; kept with the image."""
+        return []
+
+    def refine(self, spec: SamplerSpec) -> SamplerSpec:
+        """The declaration as the options of this instance change it."""
+        return spec
 
     def bases(self, dims: int) -> tuple[int, ...]:
         """The base of the digits in which each dimension is built: what a digital randomizer scrambles."""
