@@ -84,13 +84,17 @@ def parts_writer(parts: Mapping[str, ArrayLike], metadata: Mapping[str, Any], wi
         output = oiio.ImageOutput.create("openexr")
         if output is None:
             raise SamplekitError(one_line())
-        # After a failed open, writing would end the process.
-        good = output.open(name, specs)
-        for index, values in enumerate(arrays.values()):
-            good = good and (index == 0 or output.open(name, specs[index], "AppendSubimage"))
-            good = good and output.write_image(values)
-        if not (good and output.close()):
-            raise SamplekitError(one_line(output.geterror()))
+        try:
+            # After a failed open, writing would end the process.
+            good = output.open(name, specs)
+            for index, values in enumerate(arrays.values()):
+                good = good and (index == 0 or output.open(name, specs[index], "AppendSubimage"))
+                good = good and output.write_image(values)
+            error = output.geterror()
+        finally:
+            closed = output.close()  # always: an open file cannot be removed everywhere
+        if error or not (good and closed):
+            raise SamplekitError(one_line(error, output.geterror()))
         _verify(temporary, arrays, text, window)
 
     return write

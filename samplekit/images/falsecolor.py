@@ -40,9 +40,8 @@ def error_picture(
     Returns
     -------
     pixels : uint8[H, W, 3]
-        Encoded as sRGB. The picture is enlarged by a whole factor, stated in the strip, where it is narrower than 192
-        pixels; the strip is at least 256 wide, and a picture that is still narrower than that (a very tall one)
-        stands in its middle.
+        Encoded as sRGB. The picture begins at the top left, enlarged by a whole factor, which the strip states, where
+        it is narrower than 192 pixels; the strip is at least 256 wide, and beside a narrower picture is a margin.
     scale : float
         The scale used; 0 where none was given and no error is finite and other than 0.
 
@@ -100,7 +99,6 @@ def enlargement(width: int, height: int) -> int:
 def _assembled(picture: NDArray[np.uint8], facts: Facts) -> NDArray[np.uint8]:
     height, width, _ = picture.shape
     room = max(width, _WIDE)
-    left = (room - width) // 2
     above = np.full((height, room, 3), BACKGROUND, np.uint8)
-    above[:, left : left + width] = picture
+    above[:, :width] = picture
     return np.concatenate([above, strip(facts, room)])

@@ -83,10 +83,13 @@ def png_writer(pixels: NDArray[np.uint8], metadata: Mapping[str, Any]) -> Writer
         output = oiio.ImageOutput.create("png")
         if output is None:
             raise SamplekitError(one_line())
-        # After a failed open, writing would end the process. Every call says True on a full disk: the error tells.
-        good = output.open(file_name(temporary), spec) and output.write_image(pixels) and output.close()
-        error = output.geterror()
-        if error or not good:
+        try:
+            # After a failed open, writing would end the process.
+            good = output.open(file_name(temporary), spec) and output.write_image(pixels)
+        finally:
+            closed = output.close()  # always: an open file cannot be removed everywhere
+        error = output.geterror()  # on a full disk every call has said True, and this alone tells
+        if error or not (good and closed):
             raise SamplekitError(one_line(error))
         stored, metadata = read_png(temporary)
         if not np.array_equal(stored, pixels) or metadata_.encode(metadata) != text:
