@@ -1,0 +1,116 @@
+"""Points into a file of the kind that its ending says, whole or not at all."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from samplekit.errors import UsageError
+from samplekit.images.files import shown, write_group
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+    from samplekit.images.files import Writer
+    from samplekit.specs import SamplerSpec
+
+ENDINGS = (".csv", ".npy", ".svg", ".png")
+PICTURES = (".svg", ".png")
+
+
+def check_path(path: Path, realizations: int, dims: int) -> str:
+    """Return the ending of the path in lower case, once it is known that such points fit into such a file.
+
+    Raises
+    ------
+    UsageError
+        An ending that is none of the four; a picture of several realisations, or of more than 16 dimensions.
+    """
+    ending = path.suffix.lower()
+    if ending not in ENDINGS:
+        raise UsageError(
+            f"cannot write {shown(path)}: expected a name that ends in {', '.join(ENDINGS[:-1])} or {ENDINGS[-1]}"
+        )
+    if ending in PICTURES:
+        from samplekit.pointsets.picture import check_dims
+
+        if realizations != 1:
+            raise UsageError(f"a picture shows one realisation, not {realizations}: write .csv or .npy, or ask for one")
+        check_dims(dims)
+    return ending
+
+
+def write_points(
+    points: NDArray[np.float64],
+    path: Path,
+    *,
+    spec: SamplerSpec,
+    title: str,
+    metadata: Mapping[str, Any],
+    progress: Callable[[int, int], None] = lambda _done, _total: None,
+) -> None:
+    """Write points, or leave what was there.
+
+    Parameters
+    ----------
+    points
+        float64[R, N, D], each of R, N and D at least 1; pictures (``.svg``, ``.png``) take R = 1 and values in [0, 1].
+    path
+        Ends in ``.csv``, ``.npy``, ``.svg`` or ``.png``, which chooses the format.
+    spec
+        The sampler's declaration: pictures show the grids that it promises.
+    title
+        Stands above a picture, see `samplekit.pointsets.picture.title_of`.
+    metadata
+        How the points were made: anything that JSON holds, stored in pictures. CSV and NPY hold the numbers alone.
+    progress
+        Called with the numbers of points done and to do, where it may take long.
+
+    Raises
+    ------
+    UsageError
+        An unknown ending, or points that such a file cannot show; a path that cannot be written to.
+    SamplekitError
+        Metadata that is no JSON; the writing failed.
+    """
+    points = np.asarray(points, np.float64)
+    if points.ndim != 3 or points.size == 0:
+        raise UsageError(f"points must have shape [realisations, points, dimensions], not {list(points.shape)}")
+    ending = check_path(path, points.shape[0], points.shape[2])
+    write_group([(path, _writer(ending, points, spec, title, metadata, progress))])
+
+
+def _writer(
+    ending: str,
+    points: NDArray[np.float64],
+    spec: SamplerSpec,
+    title: str,
+    metadata: Mapping[str, Any],
+    progress: Callable[[int, int], None],
+) -> Writer:
+    # Each format imports its own: a table of numbers needs no image library.
+    if ending == ".npy":
+        from samplekit.pointsets.npy import npy_writer
+
+        return npy_writer(points)
+    from samplekit.pointsets.verified import text_writer
+
+    if ending == ".csv":
+        from samplekit.pointsets.csv import csv_text
+
+        return text_writer(csv_text(points, progress))
+    from samplekit.pointsets.picture import make_picture
+
+    picture = make_picture(points[0], spec.promises, title)
+    if ending == ".svg":
+        from samplekit.pointsets.svg import svg_text
+
+        return text_writer(svg_text(picture, metadata))
+    from samplekit.images.png import png_writer
+    from samplekit.pointsets.raster import draw_picture
+
+    return png_writer(draw_picture(picture), metadata)
