@@ -54,7 +54,7 @@ def points(
     from samplekit.cli.notices import announce_compilation
     from samplekit.cli.progress import Progress
     from samplekit.parsing import parse_count, parse_seed
-    from samplekit.pointsets.write import check_path, write_points
+    from samplekit.pointsets.write import check_path, title_of, write_points
 
     path = Path(output) if output else None
     if path is not None:
@@ -71,8 +71,6 @@ def points(
         source.prepare(number, dims, progress)
     values = source.points(number, dims, realizations=realizations, seed=start)
     if path is not None:
-        from samplekit.pointsets.picture import title_of
-
         title = title_of(source.text, number, dims, start)
         with Progress("writing") as progress:
             write_points(

@@ -164,12 +164,6 @@ def check_dims(dims: int) -> None:
         raise UsageError(f"a picture shows at most {MOST_DIMS} dimensions, not {dims}: write .csv or .npy")
 
 
-def title_of(sampler: str, count: int, dims: int, seed: int, realization: int = 0) -> str:
-    """Say which points a picture shows."""
-    points = "1 point" if count == 1 else f"{count} points"
-    return f"{sampler}, {points} in {dims}D, seed {seed}, realisation {realization}"
-
-
 def _heading(title: str, caption: str, width: float) -> tuple[list[Text], float]:
     """Place the lines above the panels; the second value is the lower edge of the last."""
     texts: list[Text] = []

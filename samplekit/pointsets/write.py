@@ -64,7 +64,7 @@ def write_points(
     spec
         The sampler's declaration: pictures show the grids that it promises.
     title
-        Stands above a picture, see `samplekit.pointsets.picture.title_of`.
+        Stands above a picture, see `title_of`.
     metadata
         How the points were made: anything that JSON holds, stored in pictures. CSV and NPY hold the numbers alone.
     progress
@@ -82,6 +82,12 @@ def write_points(
         raise UsageError(f"points must have shape [realisations, points, dimensions], not {list(points.shape)}")
     ending = check_path(path, points.shape[0], points.shape[2])
     write_group([(path, _writer(ending, points, spec, title, metadata, progress))])
+
+
+def title_of(sampler: str, count: int, dims: int, seed: int, realization: int = 0) -> str:
+    """Say which points a picture shows."""
+    points = "1 point" if count == 1 else f"{count} points"
+    return f"{sampler}, {points} in {dims}D, seed {seed}, realisation {realization}"
 
 
 def _writer(

@@ -2,14 +2,14 @@ import numpy as np
 import pytest
 
 from samplekit.errors import UsageError
-from samplekit.pointsets.picture import make_picture, title_of
+from samplekit.pointsets.picture import make_picture
 from samplekit.sampling.configured import configured_sampler
 
 
 def picture_of(text, count, dims):
     sampler = configured_sampler(text)
     points = sampler.points(count, dims)[0]
-    return points, make_picture(points, sampler.spec.promises, title_of(sampler.text, count, dims, 0))
+    return points, make_picture(points, sampler.spec.promises, sampler.text)
 
 
 def places(panel, role, axis):
@@ -135,11 +135,6 @@ def test_a_long_title_is_broken_into_lines():
     lines = [text for text in picture.texts if "words" in text.text]
     assert len(lines) > 3
     assert picture.panels[0].top > lines[-1].y
-
-
-def test_the_title_says_which_points():
-    assert title_of("sobol+owen", 64, 3, 7) == "sobol+owen, 64 points in 3D, seed 7, realisation 0"
-    assert title_of("random", 1, 2, 0, 5) == "random, 1 point in 2D, seed 0, realisation 5"
 
 
 def test_refusals():

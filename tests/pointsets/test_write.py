@@ -6,7 +6,7 @@ import pytest
 
 from samplekit.errors import SamplekitError, UsageError
 from samplekit.images.png import read_png
-from samplekit.pointsets.write import write_points
+from samplekit.pointsets.write import title_of, write_points
 from samplekit.specs import GridStrata, SamplerSpec
 
 SPEC = SamplerSpec("grid", "a:B", "", promises=(GridStrata(),))
@@ -100,3 +100,8 @@ def test_an_interrupt_leaves_the_old_file(tmp_path):
 def test_no_such_folder(tmp_path):
     with pytest.raises(UsageError, match="does not exist"):
         write(tmp_path / "missing" / "a.csv")
+
+
+def test_the_title_says_which_points():
+    assert title_of("sobol+owen", 64, 3, 7) == "sobol+owen, 64 points in 3D, seed 7, realisation 0"
+    assert title_of("random", 1, 2, 0, 5) == "random, 1 point in 2D, seed 0, realisation 5"
