@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
@@ -51,7 +52,7 @@ class ConfiguredScene:
     def __repr__(self) -> str:
         return f"<scene {self.text}>"
 
-    @property
+    @cached_property
     def dims(self) -> int:
         """Number of dimensions that the scene needs with these options."""
         return sum(self.needs.values())

@@ -1,21 +1,23 @@
 """Points -> scene -> mean of a pixel: the one core that rendering and studies share.
 
-Works in tiles of about 256 KB of points, so that memory does not grow with the number of samples. Sums are taken in blocks
+Works in tiles of about 512 KB of points, so that memory does not grow with the number of samples. Sums are taken in blocks
 of at most 1024 samples and combined pairwise: no result depends on the tile.
 """
 
 from __future__ import annotations
 
+import threading
 import time
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.numerics.summation import BLOCK, PairwiseSum, lane_sum
+from samplekit.numerics.summation import BLOCK, PairwiseSum
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable
 
     from numpy.typing import NDArray
 
@@ -23,8 +25,10 @@ if TYPE_CHECKING:
     from samplekit.sampling.configured import ConfiguredSampler
     from samplekit.sampling.realizations import Realizations
 
-TILE_BYTES = 256 * 1024
+TILE_BYTES = 512 * 1024
+_scratch = threading.local()
 UNIT_SQUARE = (0.0, 1.0, 0.0, 1.0)
+"""The box of the unit square as one pixel."""
 
 
 @dataclass
@@ -52,7 +56,7 @@ class Estimator:
     count: int
     tile_bytes: int = TILE_BYTES
 
-    @property
+    @cached_property
     def pixels_per_tile(self) -> int:
         """Number of pixels whose points fill a tile."""
         points = min(self.count, BLOCK) if self.sampler.streams else self.count
@@ -78,26 +82,47 @@ class Estimator:
         tick
             Called now and then with the number of samples done since the last call.
         """
-        means = np.empty(len(realizations))
-        for first in range(0, means.size, self.pixels_per_tile):
-            pixels = slice(first, min(first + self.pixels_per_tile, means.size))
-            box = np.ascontiguousarray(boxes[:, pixels])
-            total = PairwiseSum()
-            for tile in self._tiles(realizations[pixels], seconds):
-                began = time.perf_counter()
-                block_sums = np.empty(box.shape[1])
-                self.scene.sums(tile, box, block_sums)
+        sums = np.empty(len(realizations))
+        buffer = self._buffer(min(sums.size, self.pixels_per_tile))
+        for first in range(0, sums.size, self.pixels_per_tile):
+            pixels = slice(first, first + self.pixels_per_tile)
+            self._sum(realizations[pixels], boxes[:, pixels].copy(), buffer, sums[pixels], seconds, tick)
+        return sums / self.count
+
+    def _sum(
+        self,
+        realizations: Realizations,
+        boxes: NDArray[np.float64],
+        buffer: NDArray[np.float64],
+        out: NDArray[np.float64],
+        seconds: Seconds,
+        tick: Callable[[int], None],
+    ) -> None:
+        """Write the sums over all samples of a tile's pixels into ``out``."""
+        total = PairwiseSum()
+        block_sums = out
+        for start in range(0, self.count, BLOCK):
+            began = time.perf_counter()
+            tile = self._tile(realizations, start, buffer)
+            filled = time.perf_counter()
+            self.scene.sums(tile, boxes, block_sums)
+            seconds.points += filled - began
+            seconds.scene += time.perf_counter() - filled
+            tick(tile.shape[0] * tile.shape[2])
+            # Where one block is the whole set its sums are the result: nothing to combine.
+            if self.count > BLOCK:
                 total.add(block_sums)
-                seconds.scene += time.perf_counter() - began
-                tick(tile.shape[0] * tile.shape[2])
-            means[pixels] = total.total() / self.count
-        return means
+        if self.count > BLOCK:
+            out[:] = total.total()
 
     def invalid_samples(self, realizations: Realizations, boxes: NDArray[np.float64]) -> int:
         """The number of samples at which the scene is not finite, over the given pixels."""
         invalid = 0
+        buffer = self._buffer(1)
         for pixel in range(len(realizations)):
-            for tile in self._tiles(realizations[pixel : pixel + 1], Seconds()):
+            single_pixel = realizations[pixel : pixel + 1]
+            for start in range(0, self.count, BLOCK):
+                tile = self._tile(single_pixel, start, buffer)
                 # Each sample as a pixel of its own: a sum of one value is that value.
                 single = np.ascontiguousarray(tile[0].T[:, :, None])
                 values = np.empty(single.shape[0])
@@ -107,27 +132,38 @@ class Estimator:
 
     def mean_of_constant(self, value: float) -> float:
         """The estimate that ``count`` samples of one value give, in the same order of summation."""
+        from samplekit.numerics.row_sums import row_sums
+
         total = PairwiseSum()
         for start in range(0, self.count, BLOCK):
-            length = min(BLOCK, self.count - start)
-            total.add(np.array([lane_sum(np.full(length, value), length)]))
+            block_sum = np.empty(1)
+            row_sums(np.full((1, min(BLOCK, self.count - start)), value), block_sum)
+            total.add(block_sum)
         return float(total.total()[0] / self.count)
 
-    def _tiles(self, realizations: Realizations, seconds: Seconds) -> Iterator[NDArray[np.float64]]:
-        """The points of some pixels, block after block: float64[P, D, n], n <= 1024."""
+    def _buffer(self, pixels: int) -> NDArray[np.float64]:
+        """Scratch memory of this thread, kept from call to call: fresh pages cost as much as filling them."""
+        size = pixels * self.scene.dims * min(self.count, BLOCK)
+        buffer: NDArray[np.float64] | None = getattr(_scratch, "buffer", None)
+        if buffer is None or buffer.size < size:
+            buffer = _scratch.buffer = np.empty(size)
+        return buffer
+
+    def _tile(self, realizations: Realizations, start: int, buffer: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The block of points from ``start`` on, float64[P, D, n] with n <= 1024, in ``buffer``."""
         pixels, dims = len(realizations), self.scene.dims
-        whole: NDArray[np.float64] | None = None
-        buffer = np.empty(pixels * dims * min(self.count, BLOCK))
-        for start in range(0, self.count, BLOCK):
-            began = time.perf_counter()
-            length = min(BLOCK, self.count - start)
-            tile = buffer[: pixels * dims * length].reshape(pixels, dims, length)
-            if self.sampler.streams:
-                self.sampler.fill(tile, realizations, self.count, start)
-            else:
-                if whole is None:
-                    whole = np.empty((pixels, dims, self.count))
-                    self.sampler.fill(whole, realizations, self.count, 0)
-                tile[:] = whole[:, :, start : start + length]
-            seconds.points += time.perf_counter() - began
-            yield tile
+        length = min(BLOCK, self.count - start)
+        if not self.sampler.streams and self.count > BLOCK:
+            return np.ascontiguousarray(self._whole(realizations)[:, :, start : start + length])
+        tile = buffer[: pixels * dims * length].reshape(pixels, dims, length)
+        self.sampler.fill(tile, realizations, self.count, start)
+        return tile
+
+    def _whole(self, realizations: Realizations) -> NDArray[np.float64]:
+        """The whole sets float64[P, D, N] of a sampler that makes no parts, kept while their blocks are used."""
+        kept: tuple[Realizations, NDArray[np.float64]] | None = getattr(_scratch, "whole", None)
+        if kept is None or kept[0] is not realizations:
+            whole = np.empty((len(realizations), self.scene.dims, self.count))
+            self.sampler.fill(whole, realizations, self.count, 0)
+            kept = _scratch.whole = (realizations, whole)
+        return kept[1]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import threading
 import time
@@ -12,8 +13,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit.errors import UsageError
-from samplekit.integration.estimator import Estimator, Seconds
-from samplekit.sampling.realizations import Realizations
+from samplekit.integration.estimator import TILE_BYTES, Estimator, Seconds
+from samplekit.integration.pixels import locate
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 
     from samplekit.integration.plan import Plan
 
-_TILES_PER_JOB = 8
+_JOBS_PER_THREAD = 8
 
 
 @dataclass(frozen=True)
@@ -96,13 +97,14 @@ def render_plan(
     if isinstance(threads, bool) or not isinstance(threads, int) or not 1 <= threads <= 1024:
         raise UsageError(f"threads {threads}: expected an integer from 1 to 1024")
     began = time.perf_counter()
-    estimator = Estimator(plan.scene, plan.sampler, plan.count, **({"tile_bytes": tile_bytes} if tile_bytes else {}))
+    estimator = Estimator(plan.scene, plan.sampler, plan.count, tile_bytes or TILE_BYTES)
     plan.sampler.prepare(plan.count, plan.scene.dims, preparing)
     setup_seconds = time.perf_counter() - began
-    job_pixels = estimator.pixels_per_tile * _TILES_PER_JOB
+    share = math.ceil(plan.sampled.size / (threads * _JOBS_PER_THREAD))
+    job_pixels = math.ceil(share / estimator.pixels_per_tile) * estimator.pixels_per_tile
     image = np.empty(plan.pixels)
     _fill_constant(image, plan, estimator)
-    jobs = [plan.sampled[first : first + job_pixels] for first in range(0, plan.sampled.size, job_pixels)]
+    jobs = [plan.sampled[first : first + job_pixels] for first in range(0, plan.sampled.size, max(1, job_pixels))]
     clock = _Clock(progress, plan.sampled.size * plan.count)
     if threads == 1 or len(jobs) <= 1:
         for job in jobs:
@@ -112,7 +114,7 @@ def render_plan(
     invalid = plan.sampled[~np.isfinite(image[plan.sampled])]
     metrics: dict[str, float] = {}
     if invalid.size:
-        metrics["invalid_samples"] = estimator.invalid_samples(*_pixels(invalid, plan))
+        metrics["invalid_samples"] = estimator.invalid_samples(*locate(invalid, plan))
         metrics["invalid_pixels"] = int(invalid.size)
     shaped = image.reshape(plan.window[3], plan.window[2])
     reference = error = None
@@ -170,30 +172,17 @@ class _StoppedError(Exception):
 
 
 def _fill_constant(image: NDArray[np.float64], plan: Plan, estimator: Estimator) -> None:
+    if plan.sampled.size == plan.pixels:
+        return
     constant = plan.constant.ravel()
     known = ~np.isnan(constant)
     values, place = np.unique(constant[known], return_inverse=True)
     image[known] = np.array([estimator.mean_of_constant(float(value)) for value in values])[place]
 
 
-def _pixels(job: NDArray[np.int64], plan: Plan) -> tuple[Realizations, NDArray[np.float64]]:
-    """The realisations and the boxes float64[4, P] of some of the window's pixels."""
-    x0, y0, w, _ = plan.window
-    row, column = np.divmod(job, w)
-    boxes = np.stack(
-        [
-            plan.x_edges[column],
-            plan.x_edges[column + 1] - plan.x_edges[column],
-            plan.y_edges[row],
-            plan.y_edges[row + 1] - plan.y_edges[row],
-        ]
-    )
-    return Realizations.of_pixels(x0 + column, y0 + row, plan.seed), boxes
-
-
 def _means(job: NDArray[np.int64], plan: Plan, estimator: Estimator, clock: _Clock) -> NDArray[np.float64]:
     seconds = Seconds()
-    means = estimator.means(*_pixels(job, plan), seconds, clock.tick)
+    means = estimator.means(*locate(job, plan), seconds, clock.tick)
     clock.add(seconds)
     return means
 

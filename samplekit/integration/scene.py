@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.numerics.summation import lane_sum
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -41,6 +40,8 @@ class Scene:
         out
             float64[P], receives the sums.
         """
+        from samplekit.numerics.row_sums import row_sums
+
         pixels, dims, count = tile.shape
         points = np.empty((dims, pixels * count))
         points[0] = (boxes[0][:, None] + tile[:, 0] * boxes[1][:, None]).ravel()
@@ -50,8 +51,7 @@ class Scene:
         values = np.ascontiguousarray(self.value(points), np.float64)
         if values.shape != (pixels * count,):
             raise ValueError(f"value gave shape {values.shape} for {pixels * count} points")
-        for pixel, row in enumerate(values.reshape(pixels, count)):
-            out[pixel] = lane_sum(row, count)
+        row_sums(values.reshape(pixels, count), out)
 
     def exact(self, x_edges: NDArray[np.float64], y_edges: NDArray[np.float64]) -> NDArray[np.float64]:
         """The exact mean over each pixel: float64[h, w] for edges float64[w + 1] and float64[h + 1], as stored."""

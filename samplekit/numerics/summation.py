@@ -10,7 +10,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.numerics.kernel import helper
+from llvmlite import ir
+from numba.core import cgutils
+from numba.core import types as numba_types
+from numba.extending import intrinsic, overload
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -19,24 +22,53 @@ BLOCK = 1024
 """Number of samples whose sum a scene gives at once."""
 
 
-@helper
+LANES = 8
+
+
 def lane_sum(values: NDArray[np.float64], count: int) -> float:
-    """The sum of the first ``count`` values, in eight lanes."""
-    a = b = c = d = e = f = g = h = 0.0
-    whole = count - count % 8
-    for i in range(0, whole, 8):
-        a += values[i]
-        b += values[i + 1]
-        c += values[i + 2]
-        d += values[i + 3]
-        e += values[i + 4]
-        f += values[i + 5]
-        g += values[i + 6]
-        h += values[i + 7]
+    """The sum of the first ``count`` values: lane l sums values l, l + 8, ...; then the lanes in pairs; then what is left over."""
+    whole = count - count % LANES
+    lanes = [0.0] * LANES
+    for i in range(whole):
+        lanes[i % LANES] += values[i]
     rest = 0.0
     for i in range(whole, count):
         rest += values[i]
-    return (((a + b) + (c + d)) + ((e + f) + (g + h))) + rest
+    a, b, c, d, e, f, g, h = lanes
+    return float((((a + b) + (c + d)) + ((e + f) + (g + h))) + rest)
+
+
+@intrinsic
+def _sum_of_lanes(context, values, whole):  # type: ignore[no-untyped-def]
+    """Eight lanes as one LLVM vector: left to itself the compiler adds them one by one, at a third of the speed."""
+    lanes = ir.VectorType(ir.DoubleType(), LANES)
+
+    def generate(context, builder, signature, arguments):  # type: ignore[no-untyped-def]
+        array = context.make_array(signature.args[0])(context, builder, arguments[0])
+        start, step = (context.get_constant(numba_types.int64, n) for n in (0, LANES))
+        total = cgutils.alloca_once_value(builder, ir.Constant(lanes, [0.0] * LANES))
+        with cgutils.for_range_slice(builder, start, arguments[1], step, inc=True) as (i, _):
+            place = builder.bitcast(builder.gep(array.data, [i]), lanes.as_pointer())
+            builder.store(builder.fadd(builder.load(total), builder.load(place, align=8)), total)
+        vector = builder.load(total)
+        sums = [builder.extract_element(vector, ir.Constant(ir.IntType(32), lane)) for lane in range(LANES)]
+        while len(sums) > 1:
+            sums = [builder.fadd(sums[i], sums[i + 1]) for i in range(0, len(sums), 2)]
+        return sums[0]
+
+    return numba_types.float64(values, numba_types.int64), generate
+
+
+@overload(lane_sum, inline="always")
+def _lane_sum_in_kernels(values, count):  # type: ignore[no-untyped-def]
+    def lane_sum_in_kernels(values, count):  # type: ignore[no-untyped-def]
+        whole = count - count % LANES
+        rest = 0.0
+        for i in range(whole, count):
+            rest += values[i]
+        return _sum_of_lanes(values, whole) + rest
+
+    return lane_sum_in_kernels
 
 
 class PairwiseSum:

@@ -58,8 +58,7 @@ class Realizations:
             if coordinate.size and (coordinate.min() < 0 or coordinate.max() > LARGEST_COORDINATE):
                 raise UsageError(f"pixel coordinates must be from 0 to {LARGEST_COORDINATE}")
         code = x.astype(np.uint64) | (y.astype(np.uint64) << np.uint64(32))
-        seed_word = _mix64(np.array([seed], np.uint64) ^ np.uint64(0x9E3779B97F4A7C15))
-        return cls(_mix64(code ^ seed_word), x, y, seed)
+        return cls(_mix64(code ^ seed_word(seed)), x, y, seed)
 
     @classmethod
     def of_trials(cls, start: int, stop: int, seed: int) -> Realizations:
@@ -80,6 +79,12 @@ class Realizations:
 
     def __getitem__(self, rows: slice) -> Realizations:
         return Realizations(self.keys[rows], self.x[rows], self.y[rows], self.seed)
+
+
+def seed_word(seed: int) -> np.uint64:
+    """The word that the seed contributes to every key: key = mix64((x | y << 32) ^ seed_word)."""
+    word: np.uint64 = _mix64(np.array([seed], np.uint64) ^ np.uint64(0x9E3779B97F4A7C15))[0]
+    return word
 
 
 def check_seed(seed: object) -> int:

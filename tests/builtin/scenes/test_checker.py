@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from samplekit.errors import UsageError
-from samplekit.scenes.checker import Checker
+from samplekit.builtin.scenes.checker import Checker
 
 LAST = 1 - 2.0**-53
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from samplekit.errors import UsageError
-from samplekit.scenes.disk import Disk
+from samplekit.builtin.scenes.disk import Disk
 
 LAST = 1.0 - 2.0**-53
 BOXES = 250
@@ -262,7 +262,7 @@ def test_few_pixels_of_an_image_are_left_to_sample():
 
 NUMBERS = """
 import numpy as np
-from samplekit.scenes.disk import Disk
+from samplekit.builtin.scenes.disk import Disk
 random = np.random.default_rng(24)
 edges = np.arange(25) / 24
 out = np.empty(8)

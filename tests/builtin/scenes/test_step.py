@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings, strategies
 
 from samplekit.errors import UsageError
-from samplekit.scenes.step import Step
+from samplekit.builtin.scenes.step import Step
 
 LAST = 1.0 - 2.0**-53
 BOXES = 200
@@ -171,7 +171,7 @@ def test_constant_pixels_give_that_value_at_every_sample(angle, offset, size):
 
 NUMBERS = """
 import numpy as np
-from samplekit.scenes.step import Step
+from samplekit.builtin.scenes.step import Step
 random = np.random.default_rng(33)
 edges = np.arange(25) / 24
 out = np.empty(8)

@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 from samplekit.errors import UsageError
-from samplekit.scenes.zoneplate import ZonePlate
+from samplekit.builtin.scenes.zoneplate import ZonePlate
 
 LAST = 1 - 2.0**-53
 

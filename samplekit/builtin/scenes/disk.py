@@ -22,7 +22,7 @@ import numpy as np
 from samplekit.errors import UsageError
 from samplekit.numerics.doubledouble import expansion_sum, two_difference, two_product, two_sum
 from samplekit.numerics.kernel import helper, kernel
-from samplekit.scenes.scene import Scene
+from samplekit.integration.scene import Scene
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

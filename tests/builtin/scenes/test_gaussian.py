@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from samplekit.errors import UsageError
-from samplekit.scenes.gaussian import Gaussian
+from samplekit.builtin.scenes.gaussian import Gaussian
 
 LAST = 1 - 2.0**-53
 

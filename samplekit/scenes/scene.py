@@ -1,1 +1,0 @@
-from samplekit.integration.scene import Scene as Scene
