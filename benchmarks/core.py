@@ -1,6 +1,6 @@
 """Rendering core: samples per second on one thread, as ratios to fused C and to whole-image NumPy in the same run.
 
-    python benchmarks/core.py [--spp 64] [--size 512] [--repeats 7]
+python benchmarks/core.py [--spp 64] [--size 512] [--repeats 7]
 """
 
 from __future__ import annotations
@@ -82,15 +82,19 @@ def main() -> None:
     print(f"{'scene':<11}{'sampler':<12}{'Msamples/s':>11}{'of C':>8}{'x NumPy':>9}{'max |image - C|':>18}")
     for scene in SCENES:
         for sampler, c_name in SAMPLERS.items():
-            plan = make_plan(samplekit.scene(scene), samplekit.sampler(sampler), spp, size=(size, size), full=True, reference=False)
+            plan = make_plan(
+                samplekit.scene(scene), samplekit.sampler(sampler), spp, size=(size, size), full=True, reference=False
+            )
             image = render_plan(plan, threads=1).image
             c_image = np.empty((size, size))
 
             def run_c(scene: str = scene, c_name: str = c_name, c_image: np.ndarray = c_image) -> None:
                 getattr(library, f"{c_name}_{scene}")(
-                    c_image.ctypes.data_as(ctypes.c_void_p), ctypes.c_long(size), ctypes.c_long(size), ctypes.c_long(spp),
-                    ctypes.c_uint64(0), table.ctypes.data_as(ctypes.c_void_p),
-                )  # fmt: skip
+                    c_image.ctypes.data_as(ctypes.c_void_p),
+                    *(ctypes.c_long(number) for number in (size, size, spp)),
+                    ctypes.c_uint64(0),
+                    table.ctypes.data_as(ctypes.c_void_p),
+                )
 
             ours, c, whole = [], [], []
             for repeat in range(arguments.repeats):

@@ -12,9 +12,9 @@ if TYPE_CHECKING:
     from samplekit.api import estimate, plugins, points, render, sampler, samplers, scene, scenes
     from samplekit.errors import SamplekitError, UsageError
     from samplekit.hookspecs import hookimpl
+    from samplekit.integration.scene import Scene
     from samplekit.sampling.realizations import Realizations
     from samplekit.sampling.sampler import Sampler
-    from samplekit.integration.scene import Scene
     from samplekit.specs import (
         CommandSpec,
         GridStrata,
@@ -62,9 +62,9 @@ __all__ = [
     "OrthogonalArray",
     "RandomizerSpec",
     "Realizations",
+    "SamplekitError",
     "Sampler",
     "SamplerSpec",
-    "SamplekitError",
     "Scene",
     "SceneSpec",
     "UsageError",

@@ -120,9 +120,7 @@ def render(
     >>> result.image.shape, result.metrics["pixels_sampled"] < 200
     ((32, 32), True)
     """
-    plan = make_plan(
-        _scene(scene), _sampler(sampler), spp, size=size, crop=crop, seed=seed, full=full, reference=error
-    )
+    plan = make_plan(_scene(scene), _sampler(sampler), spp, size=size, crop=crop, seed=seed, full=full, reference=error)
     return render_plan(plan, threads=threads, progress=progress, ssim=ssim, flip=flip)
 
 

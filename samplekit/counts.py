@@ -6,10 +6,13 @@ The rules are the words of ``SamplerSpec.counts``. Nothing here imports NumPy.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from functools import cache
+from typing import TYPE_CHECKING
 
 from samplekit.errors import UsageError
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 LARGEST_ASPECT = 2
 """A grid's longest side is at most this many times its shortest: beyond it strata are strips."""

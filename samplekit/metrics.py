@@ -173,9 +173,7 @@ def _ssim(image: Array, reference: Array, valid: NDArray[np.bool_]) -> float:
     from skimage.metrics import structural_similarity
 
     with np.errstate(all="ignore"):
-        mean, local = structural_similarity(  # type: ignore[no-untyped-call]
-            image, reference, data_range=1.0, win_size=_SSIM_WINDOW, full=True
-        )
+        mean, local = structural_similarity(image, reference, data_range=1.0, win_size=_SSIM_WINDOW, full=True)
     if valid.all():
         return float(mean)
     whole = np.lib.stride_tricks.sliding_window_view(valid, (_SSIM_WINDOW, _SSIM_WINDOW)).all(axis=(2, 3))

@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 
 from samplekit.errors import UsageError
 
-
 LARGEST_SEED = 2**64 - 1
 
 

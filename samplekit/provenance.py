@@ -21,7 +21,9 @@ def versions() -> dict[str, str]:
     """The versions of samplekit, of Python and of the libraries that numbers depend on."""
     from samplekit import __version__
 
-    return {"samplekit": __version__, "python": platform.python_version()} | {name: version(name) for name in _LIBRARIES}
+    return {"samplekit": __version__, "python": platform.python_version()} | {
+        name: version(name) for name in _LIBRARIES
+    }
 
 
 def command(plan: Plan) -> str:

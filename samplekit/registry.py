@@ -17,7 +17,7 @@ import pluggy
 
 from samplekit import hookspecs
 from samplekit.errors import UsageError
-from samplekit.specs import CommandSpec, RandomizerSpec, SamplerSpec, SceneSpec, Spec
+from samplekit.specs import CommandSpec, RandomizerSpec, SamplerSpec, SceneSpec
 
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
@@ -98,7 +98,7 @@ class Registry:
         raise UsageError(self._unknown(kind, name))
 
     def all(self, kind: Kind) -> dict[str, Offer]:
-        """Every declaration of a kind by the name that chooses it, sorted; ``PLUGIN/NAME`` where a name is offered twice."""
+        """Every declaration of a kind by the name that chooses it, sorted; ``PLUGIN/NAME`` where a name is shared."""
         self.discover()
         named = {
             (name if len(offers) == 1 else f"{offer.plugin.name}/{name}"): offer
@@ -166,7 +166,7 @@ class Registry:
                 continue
             self._accept(kind, plugin, spec)
 
-    def _accept(self, kind: Kind, plugin: Plugin, spec: Spec) -> None:
+    def _accept(self, kind: Kind, plugin: Plugin, spec: Any) -> None:
         present = self._offers[kind].setdefault(spec.name, [])
         if any(offer.plugin.name == BUILTIN for offer in present):
             plugin.problems.append(f"{kind} {spec.name!r}: the name belongs to samplekit's own {kind}")

@@ -7,12 +7,15 @@ from __future__ import annotations
 
 import importlib
 import math
+import operator
 import re
-from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, SupportsFloat, SupportsIndex
 
 from samplekit.errors import SamplekitError, UsageError
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
 
 API_VERSION = 1
 NAME = re.compile(r"^[a-z][a-z0-9-]*$")
@@ -93,26 +96,23 @@ class Option:
 
 
 def _convert(kind: type, value: object) -> OptionValue:
-    if kind is bool:
-        words = {"true": True, "false": False}
-        return value if isinstance(value, bool) else words[value] if isinstance(value, str) and value in words else _no()
-    if isinstance(value, bool):
-        return _no()
-    if kind is int:
-        if isinstance(value, str) and not re.fullmatch(r"[+-]?\d{1,20}", value):
-            return _no()
-        if isinstance(value, float):
-            return _no()
-        return int(value)  # type: ignore[call-overload, no-any-return]
-    if kind is float:
-        if isinstance(value, str) and "_" in value:
-            return _no()
-        return float(value)  # type: ignore[arg-type]
-    return value if isinstance(value, str) else _no()
-
-
-def _no() -> Any:
-    raise ValueError
+    """The value as an instance of ``kind``; ValueError where that would change it."""
+    if kind is str and isinstance(value, str):
+        return value
+    if kind is bool and (isinstance(value, bool) or value in ("true", "false")):
+        return value in (True, "true")
+    if kind is int and isinstance(value, str) and re.fullmatch(r"[+-]?\d{1,20}", value, re.ASCII):
+        return int(value)
+    if kind is int and isinstance(value, SupportsIndex) and not isinstance(value, bool):
+        return operator.index(value)
+    if (
+        kind is float
+        and isinstance(value, (str, SupportsFloat))
+        and not isinstance(value, bool)
+        and "_" not in str(value)
+    ):
+        return float(value)
+    raise ValueError(value)
 
 
 @dataclass(frozen=True)
@@ -177,7 +177,9 @@ class _Spec:
     api_version: int = field(default=API_VERSION, kw_only=True)
 
     def __post_init__(self) -> None:
-        _require(isinstance(self.name, str) and bool(NAME.match(self.name)), f"bad name {self.name!r}: want [a-z][a-z0-9-]*")
+        _require(
+            isinstance(self.name, str) and bool(NAME.match(self.name)), f"bad name {self.name!r}: want [a-z][a-z0-9-]*"
+        )
         _require(
             isinstance(self.target, str) and bool(TARGET.match(self.target)),
             f"{self.name}: bad target {self.target!r}: want 'package.module:Class'",
@@ -190,7 +192,8 @@ class _Spec:
         _require(len(set(names)) == len(names), f"{self.name}: an option is declared twice")
         _require(
             self.api_version <= API_VERSION,
-            f"{self.name}: made for plugin interface {self.api_version}, this samplekit has {API_VERSION}: upgrade samplekit-core",
+            f"{self.name}: made for plugin interface {self.api_version}, this samplekit has {API_VERSION}:"
+            " upgrade samplekit-core",
         )
 
     def load(self) -> Any:
@@ -223,7 +226,9 @@ class _Spec:
                 takes = ", ".join(known) if known else "none"
                 raise UsageError(f"{self.name} has no option {name!r}: it takes {takes}")
         try:
-            return {name: option.parse(given[name]) if name in given else option.default for name, option in known.items()}
+            return {
+                name: option.parse(given[name]) if name in given else option.default for name, option in known.items()
+            }
         except UsageError as error:
             raise UsageError(f"{self.name}: {error}") from None
 
@@ -239,9 +244,11 @@ class SamplerSpec(_Spec):
     dimensions
         Least and most; most None: any number.
     progressive
-        ``"no"``; ``"every-count"`` or ``"powers-of-B"``: points(M)[:N] == points(N), and prefixes of those lengths are good sets.
+        ``"no"``; ``"every-count"`` or ``"powers-of-B"``: points(M)[:N] == points(N), and prefixes of those lengths are
+        good sets.
     counts
-        ``"any"``, ``"products"`` (a grid of near-equal sides over all dimensions), ``"products-in-2"`` (over each pair), ``"squares"``, ``"prime-squares"``, ``"prime-cubes"``, ``"powers-of-B"``.
+        ``"any"``, ``"products"`` (a grid of near-equal sides over all dimensions), ``"products-in-2"`` (over pairs),
+        ``"squares"``, ``"prime-squares"``, ``"prime-cubes"``, ``"powers-of-B"``.
     randomized
         Another seed, and another realisation, gives other points.
     unbiased
@@ -253,8 +260,8 @@ class SamplerSpec(_Spec):
     promises
         Properties that hold exactly, for every realisation.
     fresh_options
-        Options under which every realisation is made afresh, for samplers that otherwise reuse sets: studies of expected
-        spectra and variances set them.
+        Options under which every realisation is made afresh, for samplers that otherwise reuse sets: studies of
+        expected spectra and variances set them.
     expected_failures
         Check name to reason, for what is known not to hold.
     """
@@ -273,7 +280,8 @@ class SamplerSpec(_Spec):
     def __post_init__(self) -> None:
         super().__post_init__()
         _require(
-            isinstance(self.dimensions, tuple) and len(self.dimensions) == 2, f"{self.name}: dimensions must be (least, most)"
+            isinstance(self.dimensions, tuple) and len(self.dimensions) == 2,
+            f"{self.name}: dimensions must be (least, most)",
         )
         least, most = self.dimensions
         _require(
@@ -281,7 +289,8 @@ class SamplerSpec(_Spec):
             f"{self.name}: dimensions {self.dimensions} must be (least, most) with 1 <= least <= most, or most None",
         )
         _require(
-            isinstance(self.counts, str) and bool(COUNTS.match(self.counts)), f"{self.name}: unknown counts {self.counts!r}"
+            isinstance(self.counts, str) and bool(COUNTS.match(self.counts)),
+            f"{self.name}: unknown counts {self.counts!r}",
         )
         _require(
             isinstance(self.progressive, str) and bool(PROGRESSIVE.match(self.progressive)),
@@ -295,9 +304,10 @@ class SamplerSpec(_Spec):
 
 @dataclass(frozen=True)
 class RandomizerSpec(_Spec):
-    """What a randomizer declares: ``keeps`` names the kinds of promise that survive it, in which ``base``s.
+    """What a randomizer declares.
 
-    ``keeps`` holds keywords of promises: ``net``, ``latin``, ``grid``, ``orthogonal-array``, ``distance``.
+    ``keeps`` names the kinds of promise that survive it: ``net``, ``latin``, ``grid``, ``orthogonal-array``,
+    ``distance``.
     """
 
     keeps: tuple[str, ...] = field(default=(), kw_only=True)

@@ -1,4 +1,4 @@
-"""The command line. Each command is a file; its imports are inside its body, so that ``--help`` and ``--version`` start fast."""
+"""The command line. Each command is a file with its imports inside its body, so that ``--help`` starts fast."""
 
 from __future__ import annotations
 

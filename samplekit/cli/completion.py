@@ -11,7 +11,7 @@ def complete_sampler(incomplete: str) -> list[tuple[str, str]]:
     return _names("sampler")
 
 
-def complete_scene(incomplete: str) -> list[tuple[str, str]]:  # noqa: ARG001
+def complete_scene(incomplete: str) -> list[tuple[str, str]]:
     """Scenes."""
     return _names("scene")
 

@@ -61,9 +61,7 @@ def _records(kind: str) -> list[dict[str, Any]]:
         if kind == "samplers":
             # Largest indices pass 2^53, which many JSON readers round.
             record["largest_index"] = str(offer.spec.largest_index)
-            record["promises"] = [
-                {"promise": promise.keyword, **asdict(promise)} for promise in offer.spec.promises
-            ]
+            record["promises"] = [{"promise": promise.keyword, **asdict(promise)} for promise in offer.spec.promises]
         records.append(record)
     return records
 
@@ -97,7 +95,15 @@ def _sampler_row(name: str, spec: SamplerSpec) -> list[str]:
     dimensions = f"{least}" if most == least else f"{least} and more" if most is None else f"{least} to {most}"
     progressive = spec.progressive.replace("-", " ")
     promises = ", ".join(dict.fromkeys(promise.keyword for promise in spec.promises))
-    return [name, dimensions, describe(spec.counts), progressive, "yes" if spec.randomized else "no", promises, spec.summary]
+    return [
+        name,
+        dimensions,
+        describe(spec.counts),
+        progressive,
+        "yes" if spec.randomized else "no",
+        promises,
+        spec.summary,
+    ]
 
 
 def _options(offer: Offer) -> str:

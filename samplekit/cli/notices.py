@@ -10,10 +10,10 @@ def announce_compilation() -> None:
     """Say once, when the first kernel is compiled instead of being loaded from the cache, what is going on."""
     from numba.core import event
 
-    class _Announcement(event.Listener):
+    class _Announcement(event.Listener):  # type: ignore[misc]
         said = False
 
-        def on_start(self, event: Any) -> None:  # noqa: ARG002
+        def on_start(self, event: Any) -> None:
             if not self.said:
                 self.said = True
                 print("samplekit: compiling kernels for this machine, once (some seconds)", file=sys.stderr)  # noqa: T201

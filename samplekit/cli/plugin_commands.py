@@ -62,4 +62,6 @@ def _unknown(name: str, own: list[str], reason: str) -> str:
 
     others = registry().all("command")
     _, _, plugins = reason.partition(" (plugins ")
-    return f"unknown command {name!r}: there are {', '.join([*own, *others])}" + (f" (plugins {plugins}" if plugins else "")
+    return f"unknown command {name!r}: there are {', '.join([*own, *others])}" + (
+        f" (plugins {plugins}" if plugins else ""
+    )

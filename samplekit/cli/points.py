@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from samplekit.cli.completion import complete_sampler
-from samplekit.cli.options import JsonOption, SeedOption  # noqa: TC001 typer reads them when it runs
+from samplekit.cli.options import JsonOption, SeedOption
 
 if TYPE_CHECKING:
     from samplekit.sampling.configured import ConfiguredSampler

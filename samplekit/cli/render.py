@@ -37,7 +37,8 @@ def render(
     crop: Annotated[str, typer.Option("--crop", metavar="X,Y,W,H", help="Render this part of the image alone.")] = "",
     seed: SeedOption = "0",
     output: Annotated[
-        str, typer.Option("--output", "-o", metavar="PATH", help="A folder, or STEM.exr; by default the current folder.")
+        str,
+        typer.Option("--output", "-o", metavar="PATH", help="A folder, or STEM.exr; by default the current folder."),
     ] = "",
     no_error: Annotated[
         bool, typer.Option("--no-error", help="Leave out the reference, the error and the metrics.")
@@ -151,7 +152,9 @@ def _report(rendering: Rendering, files: list[Path], as_json: bool) -> None:
         }
         typer.echo(json.dumps(report, allow_nan=False))
         return
-    typer.echo(f"{plan.scene.text}, {plan.sampler.text}, {plan.count} spp, {plan.size[0]}x{plan.size[1]}, seed {plan.seed}")
+    typer.echo(
+        f"{plan.scene.text}, {plan.sampler.text}, {plan.count} spp, {plan.size[0]}x{plan.size[1]}, seed {plan.seed}"
+    )
     for name, number in rendering.metrics.items():
         typer.echo(f"  {name:<16}{number if isinstance(number, int) else f'{number:.6g}'}")
     times = ", ".join(f"{name} {seconds:.3f}" for name, seconds in rendering.seconds.items())

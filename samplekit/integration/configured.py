@@ -81,7 +81,9 @@ class ConfiguredScene:
     ) -> NDArray[np.float64]:
         image = self._guarded(what, call)
         if np.shape(image) != (y_edges.size - 1, x_edges.size - 1):
-            raise SamplekitError(f"scene {self.text} of plugin {self.plugin} cannot {what}: wrong shape {np.shape(image)}")
+            raise SamplekitError(
+                f"scene {self.text} of plugin {self.plugin} cannot {what}: wrong shape {np.shape(image)}"
+            )
         return np.asarray(image, np.float64)
 
     def _guarded(self, what: str, call: Callable[[], T]) -> T:

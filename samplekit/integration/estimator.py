@@ -1,7 +1,7 @@
 """Points -> scene -> mean of a pixel: the one core that rendering and studies share.
 
-Works in tiles of about 512 KB of points, so that memory does not grow with the number of samples. Sums are taken in blocks
-of at most 1024 samples and combined pairwise: no result depends on the tile.
+Works in tiles of about 512 KB of points, so that memory does not grow with the number of samples. Sums are taken in
+blocks of at most 1024 samples and combined pairwise: no result depends on the tile.
 """
 
 from __future__ import annotations

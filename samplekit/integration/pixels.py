@@ -54,7 +54,7 @@ def _locate(
 
 
 def locate(indices: NDArray[np.int64], plan: Plan) -> tuple[Realizations, NDArray[np.float64]]:
-    """The realisations and the boxes float64[4, P] of some of the window's pixels, given by their flat indices int64[P]."""
+    """The realisations and boxes float64[4, P] of some of the window's pixels, given by their flat indices int64[P]."""
     count = indices.size
     keys, xs, ys = np.empty(count, np.uint64), np.empty(count, np.int64), np.empty(count, np.int64)
     boxes = np.empty((4, count))

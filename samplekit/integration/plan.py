@@ -119,7 +119,7 @@ def make_plan(
     Raises
     ------
     UsageError
-        The sampler cannot give the points, the window is not inside the image, or it needs more memory or time than there is.
+        The sampler cannot give the points, the window is not inside the image, or there is not the memory or the time.
     """
     from samplekit.sampling.realizations import check_seed
 
@@ -132,7 +132,9 @@ def make_plan(
     sampler.check(count, scene.dims)
     pixels = window[2] * window[3]
     if pixels * count > MOST_SAMPLES:
-        raise UsageError(f"{pixels} pixels x {count} samples = {pixels * count:.3g}: at most {MOST_SAMPLES:.3g} in one image")
+        raise UsageError(
+            f"{pixels} pixels x {count} samples = {pixels * count:.3g}: at most {MOST_SAMPLES:.3g} in one image"
+        )
     _check_memory(pixels)
     return Plan(scene, sampler, int(count), (width, height), window, seed, full, reference)
 
@@ -146,6 +148,6 @@ def _check_memory(pixels: int) -> None:
     available = psutil.virtual_memory().available
     if needed > available:
         raise UsageError(
-            f"an image of {pixels} pixels takes about {needed / 2**30:.1f} GiB of memory and {available / 2**30:.1f} GiB are"
-            " free: render it in parts with --crop X,Y,W,H"
+            f"an image of {pixels} pixels takes about {needed / 2**30:.1f} GiB of memory and"
+            f" {available / 2**30:.1f} GiB are free: render it in parts with --crop X,Y,W,H"
         )

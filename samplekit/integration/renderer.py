@@ -39,7 +39,8 @@ class Rendering:
     metrics
         Names of ``--json`` to numbers.
     seconds
-        ``setup`` (what the sets share), ``points`` and ``scene`` summed over threads, ``reference`` and ``total`` by the wall clock.
+        ``setup`` (what the sets share), ``points`` and ``scene`` summed over threads, ``reference`` and ``total`` by
+        the wall clock.
     plan
         What was rendered.
     """

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -24,7 +23,7 @@ class Scene:
         return {"pixel": 2}
 
     def value(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The integrand at ``points`` float64[D, M]: rows x, y in scene coordinates, then the other purposes in [0, 1). float64[M]."""
+        """The integrand float64[M] at ``points`` float64[D, M]: rows x, y in the scene, the others in [0, 1)."""
         raise NotImplementedError(f"{type(self).__name__} defines neither value nor sums")
 
     def sums(self, tile: NDArray[np.float64], boxes: NDArray[np.float64], out: NDArray[np.float64]) -> None:
@@ -36,7 +35,7 @@ class Scene:
             float64[P, D, n], n <= 1024, C order: for each pixel samples in [0, 1)^D, dimension by dimension;
             dimensions 0 and 1 are the place within the pixel.
         boxes
-            float64[4, P], C order: left edge, width, top edge, height of each pixel. The sample u lies at left + u * width.
+            float64[4, P], C order: left edge, width, top edge, height of each pixel. Sample u is at left + u * width.
         out
             float64[P], receives the sums.
         """

@@ -1,7 +1,7 @@
 """Kernels: numba functions with an explicit signature, compiled once and cached across processes.
 
-The cache of a kernel is keyed by its own source; helpers that it inlines from other files are not part of
-that key, so the source of the folders that hold them is folded in here. Where no cache can be written (read-only installation,
+The cache of a kernel is keyed by its own source; helpers that it inlines from other files are not part of that key, so
+the source of the folders that hold them is folded in here. Where no cache can be written (read-only installation,
 unwritable home) kernels compile afresh in every process instead of failing.
 """
 
@@ -16,7 +16,8 @@ from typing import Any, TypeVar, cast
 
 import numba
 import numpy as np
-from numba.core import config, types as numba_types
+from numba.core import config
+from numba.core import types as numba_types
 from numba.extending import intrinsic, overload
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -54,7 +55,7 @@ def kernel(signature: str) -> Callable[[Function], Function]:
 
     def compile_kernel(function: Function) -> Function:
         if config.DISABLE_JIT:
-            return cast("Function", np.errstate(over="ignore")(function))
+            return np.errstate(over="ignore")(function)
         keyed = _keyed_by_helpers(cast("types.FunctionType", function))
         try:
             compiled = numba.njit(signature, nogil=True, cache=True, error_model="numpy")(keyed)
@@ -78,9 +79,9 @@ def fma(a: float, b: float, c: float) -> float:
     return float(Fraction(float(a)) * Fraction(float(b)) + Fraction(float(c)))
 
 
-def reverse_bits32(x: int) -> int:
+def reverse_bits32(x: np.uint32) -> np.uint32:
     """The 32 bits of ``x`` in reverse order."""
-    return np.uint32(int(f"{int(x):032b}"[::-1], 2))  # type: ignore[return-value]
+    return np.uint32(int(f"{int(x):032b}"[::-1], 2))
 
 
 @intrinsic  # type: ignore[untyped-decorator]
@@ -99,11 +100,11 @@ def _reverse_bits32(context: Any, x: Any) -> Any:
     return numba_types.uint32(numba_types.uint32), generate
 
 
-@overload(fma, inline="always")  # type: ignore[untyped-decorator]
+@overload(fma, inline="always")
 def _fma_in_kernels(a, b, c):  # type: ignore[no-untyped-def]
     return lambda a, b, c: _fma(a, b, c)
 
 
-@overload(reverse_bits32, inline="always")  # type: ignore[untyped-decorator]
+@overload(reverse_bits32, inline="always")
 def _reverse_bits32_in_kernels(x):  # type: ignore[no-untyped-def]
     return lambda x: _reverse_bits32(x)

@@ -8,14 +8,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from llvmlite import ir
 from numba.core import cgutils
 from numba.core import types as numba_types
 from numba.extending import intrinsic, overload
 
 if TYPE_CHECKING:
+    import numpy as np
     from numpy.typing import NDArray
 
 BLOCK = 1024
@@ -26,7 +25,7 @@ LANES = 8
 
 
 def lane_sum(values: NDArray[np.float64], count: int) -> float:
-    """The sum of the first ``count`` values: lane l sums values l, l + 8, ...; then the lanes in pairs; then what is left over."""
+    """The sum of the first ``count`` values: lane l sums values l, l + 8, ...; then lanes in pairs; then the rest."""
     whole = count - count % LANES
     lanes = [0.0] * LANES
     for i in range(whole):

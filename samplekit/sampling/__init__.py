@@ -1,1 +1,1 @@
-"""What sampler authors build on: the sampler, realisations, hashing, permutations, strata, radical inverses, digital nets."""
+"""What sampler authors build on: sampler, realisations, hashing, permutations, strata, radical inverses, nets."""

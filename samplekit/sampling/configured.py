@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,13 +12,13 @@ from samplekit.errors import SamplekitError, UsageError
 from samplekit.parsing import parse_choice
 from samplekit.registry import BUILTIN, Offer, registry
 from samplekit.sampling.realizations import Realizations, check_seed
-from samplekit.sampling.sampler import Sampler
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from numpy.typing import NDArray
 
+    from samplekit.sampling.sampler import Sampler
     from samplekit.specs import OptionValue, RandomizerSpec, SamplerSpec
 
 
@@ -46,8 +46,9 @@ class ConfiguredSampler:
         if randomizer:
             from samplekit.sampling.randomizer import RandomizedSampler
 
-            randomize = _construct(randomizer, randomizer.spec.parse_options({}))
-            self._sampler = RandomizedSampler(self._sampler, randomize, randomizer.spec.name)
+            self._sampler = RandomizedSampler(
+                self._sampler, _construct(randomizer, randomizer.spec.parse_options({})), randomizer.spec.name
+            )
             spec = _randomized(spec, randomizer.spec)
         self.spec = spec
 
@@ -132,7 +133,14 @@ class ConfiguredSampler:
         return SamplekitError(f"sampler {self.text} of plugin {self.plugin} failed: {type(error).__name__}: {message}")
 
     def points(
-        self, count: int, dims: int = 2, *, realizations: int = 1, seed: int = 0, start: int = 0, stop: int | None = None
+        self,
+        count: int,
+        dims: int = 2,
+        *,
+        realizations: int = 1,
+        seed: int = 0,
+        start: int = 0,
+        stop: int | None = None,
     ) -> NDArray[np.float64]:
         """Points start to stop of sets of ``count`` points.
 
@@ -181,11 +189,11 @@ def configured_sampler(text: str, **options: object) -> ConfiguredSampler:
     return ConfiguredSampler(registry().find("sampler", choice.name), given, randomizer)
 
 
-def _construct(offer: Offer, values: Mapping[str, OptionValue]) -> Sampler:
+def _construct(offer: Offer, values: Mapping[str, OptionValue]) -> Any:
     implementation = offer.spec.load()
     keywords = {name.replace("-", "_"): value for name, value in values.items()}
     try:
-        return implementation(**keywords)  # type: ignore[no-any-return]
+        return implementation(**keywords)
     except UsageError:
         raise
     except Exception as error:

@@ -24,7 +24,7 @@ BITS = 32
 def net_coordinates(out: NDArray[np.uint32], columns: NDArray[np.uint32], start: int) -> None:
     """Write the coordinates, as 32-bit fractions, of the points start, start + 1, ... of one dimension.
 
-    ``columns`` uint32[32]: column j of the generator matrix belongs to bit j of the index, its top bit to the first digit.
+    ``columns`` uint32[32]: column j of the generator matrix belongs to bit j of the index, its top bit to digit 1.
     """
     points = out.size
     for i in range(points):

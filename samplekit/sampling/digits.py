@@ -17,7 +17,7 @@ def numerator(x: float, power: int) -> int:
 
     Exact for x = m / power rounded to float64, which can lie on either side of the fraction.
     """
-    return min(np.int64(x * np.float64(power) + 0.5), power - 1)
+    return min(int(x * np.float64(power) + 0.5), power - 1)
 
 
 @helper

@@ -46,7 +46,8 @@ def permutation_bits(count: int) -> int:
 def scatter(x: np.uint32, bits: int, key: np.uint64) -> np.uint32:
     """A keyed bijection of the integers below 2^bits, 1 <= bits <= 32.
 
-    Every step is a bijection modulo 2^bits: exclusive or with a constant or with its own high bits, addition, odd multiplication.
+    Every step is a bijection modulo 2^bits: exclusive or with a constant or the word's own high bits, addition, odd
+    multiplication.
     """
     mask = _U32(0xFFFFFFFF) >> _U32(32 - bits)
     half = _U32((bits + 1) >> 1)
@@ -74,4 +75,4 @@ def permute(index: int, count: int, bits: int, key: np.uint64) -> int:
     x = scatter(_U32(index), bits, key)
     while x >= count:
         x = scatter(x, bits, key)
-    return np.int64(x)
+    return np.int64(x)  # type: ignore[return-value]

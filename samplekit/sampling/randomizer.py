@@ -19,7 +19,7 @@ class Randomizer:
     """Base of all randomizers. Options arrive by keyword."""
 
     def apply(self, points: NDArray[np.float64], realizations: Realizations, bases: tuple[int, ...]) -> None:
-        """Randomise ``points`` float64[R, D, n] in place; the result depends on each coordinate, the key and the dimension.
+        """Randomise ``points`` float64[R, D, n] in place: by coordinate, key and dimension alone.
 
         ``bases``: the base in which each dimension's digits were built.
         """

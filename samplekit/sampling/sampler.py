@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit.errors import SamplekitError
-from samplekit.sampling.realizations import Realizations
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from numpy.typing import NDArray
 
+    from samplekit.sampling.realizations import Realizations
     from samplekit.specs import SamplerSpec
 
     Fill = Callable[[NDArray[np.float64], Realizations, int, int], None]
@@ -76,7 +76,7 @@ class Sampler:
         return (2,) * dims
 
     def fused(self, randomizer: str) -> Fill | None:
-        """A ``fill`` that gives the same points as this sampler followed by the randomizer, faster; None: there is none."""
+        """A faster ``fill`` that gives the points of this sampler followed by the randomizer; None: there is none."""
         return None
 
     @property

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def shifted(fractions: NDArray[np.uint64], realizations: Realizations) -> NDArray[np.float64]:
-    """``fractions`` uint64[D, n] plus one random shift for each realisation and dimension: float64[R, D, n] in [0, 1)."""
+    """``fractions`` uint64[D, n] plus a random shift for each realisation and dimension: float64[R, D, n] in [0, 1)."""
     shifts = realizations.random_words(fractions.shape[0])
     moved = fractions + shifts[:, :, None]
-    return (moved >> np.uint64(11)) * 2.0**-53
+    return (moved >> np.uint64(11)).astype(np.float64) * 2.0**-53

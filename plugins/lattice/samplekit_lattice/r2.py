@@ -33,7 +33,7 @@ def golden_steps(dims: int) -> NDArray[np.uint64]:
 class R2(Sampler):
     """Point i is i times the step plus the realisation's shift, modulo 1."""
 
-    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:  # noqa: ARG002
+    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`samplekit.Sampler.fill`."""
         _, dims, points = out.shape
         index = np.arange(start, start + points, dtype=np.uint64)

@@ -1,7 +1,7 @@
 """A rank-1 lattice: point i is i z / N, modulo 1, for a generating vector z.
 
-The vector is that of Cools, Kuo, Nuyens 2006, "Constructing embedded lattice rules for multivariate integration", order 2:
-good for every N = 2^m up to 2^20 and in all two-dimensional projections.
+The vector is that of Cools, Kuo, Nuyens 2006, "Constructing embedded lattice rules for multivariate integration",
+order 2: good for every N = 2^m up to 2^20 and in all two-dimensional projections.
 """
 
 from __future__ import annotations
@@ -19,7 +19,24 @@ if TYPE_CHECKING:
     from samplekit import Realizations
 
 GENERATING_VECTOR = np.array(
-    [1, 182667, 469891, 498753, 110745, 446247, 250185, 118627, 245333, 283199, 408519, 391023, 246327, 126539, 399185, 461527],
+    [
+        1,
+        182667,
+        469891,
+        498753,
+        110745,
+        446247,
+        250185,
+        118627,
+        245333,
+        283199,
+        408519,
+        391023,
+        246327,
+        126539,
+        399185,
+        461527,
+    ],
     np.uint64,
 )
 

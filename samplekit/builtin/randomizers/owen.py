@@ -1,9 +1,9 @@
 """Owen's nested uniform scrambling, in the base of each dimension.
 
-Owen 1995, "Randomly permuted (t,m,s)-nets and (t,s)-sequences". In base 2 the digits are flipped by a hash of the digits
-before them. In a prime base b > 2 each node of the tree of digits has a random affine permutation a d + c mod b, a != 0: any
-two digits go to a uniformly random pair of distinct digits, which is all that mean and variance depend on (Owen 2003,
-"Variance with alternative scramblings of digital nets").
+Owen 1995, "Randomly permuted (t,m,s)-nets and (t,s)-sequences". In base 2 the digits are flipped by a hash of the
+digits before them. In a prime base b > 2 each node of the tree of digits has a random affine permutation
+a d + c mod b, a != 0: any two digits go to a uniformly random pair of distinct digits, which is all that mean and
+variance depend on (Owen 2003, "Variance with alternative scramblings of digital nets").
 """
 
 from __future__ import annotations
@@ -45,9 +45,9 @@ def _apply(points: NDArray[np.float64], keys: NDArray[np.uint64], bases: NDArray
                 tail = owen_tail(key)
                 for i in range(count):
                     head = _U32(row[i] * _TWO_P32)
-                    rest = _U64((row[i] - np.float64(head) * TWO_M32) * _TWO_P53)
-                    scrambled = scramble_reversed(reverse_bits32(head), addend, factor)
-                    row[i] = np.float64(scrambled) * TWO_M32 + tail_value(rest ^ tail)
+                    digits_after = _U64((row[i] - np.float64(head) * TWO_M32) * _TWO_P53)
+                    scrambled_head = scramble_reversed(reverse_bits32(head), addend, factor)
+                    row[i] = np.float64(scrambled_head) * TWO_M32 + tail_value(digits_after ^ tail)
                 continue
             for i in range(count):
                 rest = numerator(row[i], power)
@@ -67,7 +67,7 @@ def _apply(points: NDArray[np.float64], keys: NDArray[np.uint64], bases: NDArray
 
 
 class Owen(Randomizer):
-    """Random permutations of digits, each depending on all digits before it: nets stay nets, and variance falls below N^-1."""
+    """Random permutations of digits, each depending on all digits before it: nets stay nets, variance falls faster."""
 
     def apply(self, points: NDArray[np.float64], realizations: Realizations, bases: tuple[int, ...]) -> None:
         """Scramble ``points`` in place; see :meth:`Randomizer.apply`."""

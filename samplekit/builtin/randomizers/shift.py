@@ -37,6 +37,6 @@ def _apply(points: NDArray[np.float64], keys: NDArray[np.uint64]) -> None:
 class Shift(Randomizer):
     """Adds a uniform random vector to every point, modulo 1."""
 
-    def apply(self, points: NDArray[np.float64], realizations: Realizations, bases: tuple[int, ...]) -> None:  # noqa: ARG002
+    def apply(self, points: NDArray[np.float64], realizations: Realizations, bases: tuple[int, ...]) -> None:
         """Shift ``points`` in place; see :meth:`Randomizer.apply`."""
         _apply(points, realizations.keys)

@@ -63,7 +63,7 @@ def _fill_jittered(
 class Regular(Sampler):
     """The centres of the cells of a grid, the same in every realisation."""
 
-    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:  # noqa: ARG002
+    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`Sampler.fill`."""
         _, dims, points = out.shape
         sides = _sides(count, dims)

@@ -1,8 +1,8 @@
 """Multi-jittered sampling: jittered in 2D and Latin in each dimension at once.
 
-``MultiJittered``: Chiu, Shirley, Wang 1994, "Multi-jittered sampling", Graphics Gems IV; every column and row is shuffled on its own.
-``CorrelatedMultiJittered``: Kensler 2013, "Correlated multi-jittered sampling", Pixar 13-01; one permutation for all
-columns and one for all rows, which moves gaps apart and takes the variance of smooth integrands from N^-2 to N^-3.
+``MultiJittered``: Chiu, Shirley, Wang 1994, "Multi-jittered sampling", Graphics Gems IV; every column and every row is
+shuffled on its own. ``CorrelatedMultiJittered``: Kensler 2013, "Correlated multi-jittered sampling", Pixar 13-01; one
+permutation for all columns and one for all rows, which takes the variance of smooth integrands from N^-2 to N^-3.
 
 Beyond two dimensions, pairs of dimensions are padded: each pair is a set of its own, visited in a random order.
 """

@@ -1,7 +1,8 @@
 """Van der Corput, Halton and Hammersley points: radical inverses of the index in prime bases.
 
-Halton 1960, "On the efficiency of certain quasi-random sequences of points in evaluating multi-dimensional integrals";
-Hammersley 1960, "Monte Carlo methods for solving multivariable problems". Indices start at 0, so that no coordinate is 1.
+Halton 1960, "On the efficiency of certain quasi-random sequences of points in evaluating multi-dimensional
+integrals"; Hammersley 1960, "Monte Carlo methods for solving multivariable problems". Indices start at 0, so that no
+coordinate is 1.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 class Halton(Sampler):
     """Dimension d is the radical inverse of the index in the (d + 1)-th prime."""
 
-    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:  # noqa: ARG002
+    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`Sampler.fill`."""
         for dimension, base in enumerate(self.bases(out.shape[1])):
             radical_inverses(out[0, dimension], base, start)
@@ -47,7 +48,7 @@ class VanDerCorput(Halton):
 class Hammersley(Halton):
     """Dimension 0 is index / count, dimension d the radical inverse in the d-th prime."""
 
-    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:  # noqa: ARG002
+    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`Sampler.fill`."""
         _, dims, points = out.shape
         out[0, 0] = np.arange(start, start + points) / count

@@ -33,6 +33,6 @@ def _fill(out: NDArray[np.float64], keys: NDArray[np.uint64], start: int) -> Non
 class Random(Sampler):
     """Counter-based random points: point i is a hash of (seed, realisation, dimension, i)."""
 
-    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:  # noqa: ARG002
+    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`Sampler.fill`."""
         _fill(out, realizations.keys, start)

@@ -59,9 +59,7 @@ def _fill(out: NDArray[np.float64], columns: NDArray[np.uint32], start: int) -> 
 
 
 @kernel("void(float64[:,:,::1], uint64[::1], uint32[:,::1], int64)")
-def _fill_owen(
-    out: NDArray[np.float64], keys: NDArray[np.uint64], columns: NDArray[np.uint32], start: int
-) -> None:
+def _fill_owen(out: NDArray[np.float64], keys: NDArray[np.uint64], columns: NDArray[np.uint32], start: int) -> None:
     realizations, dims, points = out.shape
     coordinates = np.empty((dims, points), np.uint32)
     for d in range(dims):
@@ -83,7 +81,7 @@ def _fill_owen(
 class Sobol(Sampler):
     """Point i from the bits of i, in up to 4096 dimensions."""
 
-    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:  # noqa: ARG002
+    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`Sampler.fill`."""
         _fill(out, direction_numbers(out.shape[1]), start)
         out[1:] = out[0]
@@ -92,5 +90,5 @@ class Sobol(Sampler):
         """Owen's scrambling on the integer coordinates."""
         return self._fill_owen if randomizer == "owen" else None
 
-    def _fill_owen(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:  # noqa: ARG002
+    def _fill_owen(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
         _fill_owen(out, realizations.keys, direction_numbers(out.shape[1]), start)

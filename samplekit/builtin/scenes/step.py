@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit.errors import UsageError
+from samplekit.integration.scene import Scene
 from samplekit.numerics.doubledouble import add, two_product
 from samplekit.numerics.kernel import helper, kernel
-from samplekit.integration.scene import Scene
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
