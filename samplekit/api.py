@@ -165,7 +165,7 @@ def estimate(
     source.prepare(int(count), integrand.dims)
     boxes = np.repeat(np.array(UNIT_SQUARE)[:, None], realizations, axis=1)
     return Estimator(integrand, source, int(count)).means(
-        Realizations.of_trials(0, int(realizations), seed), boxes, Seconds()
+        Realizations.of_trials(0, int(realizations), seed, integrand.blocks), boxes, Seconds()
     )
 
 

@@ -95,11 +95,11 @@ def metrics(image: ArrayLike, reference: ArrayLike, *, ssim: bool = False, flip:
 def _errors(image: Array, reference: Array, valid: NDArray[np.bool_]) -> dict[str, float]:
     # Only values near the largest float: dividing the smallest would lose their digits.
     shrink = 8 if max(np.abs(image).max(), np.abs(reference).max()) > 2.0**1000 else 0
-    error = np.ldexp(image, -shrink) - np.ldexp(reference, -shrink)
+    error = _times_power_of_two(image, -shrink) - _times_power_of_two(reference, -shrink)
     scaled, power = _scaled(error)
     power += shrink
     mean_square = _mean(np.square(scaled[valid]))
-    relative, relative_power = _scaled(error / np.hypot(reference, 0.1))
+    relative, relative_power = _scaled(error / _floored(reference))
     blurred, blurred_power = _scaled(_blurred(scaled, valid))
     return {
         "mse": _times_power(mean_square, 2 * power),
@@ -116,7 +116,23 @@ def _errors(image: Array, reference: Array, valid: NDArray[np.bool_]) -> dict[st
 def _scaled(values: Array) -> tuple[Array, int]:
     """Divide values by the power of two that brings the largest into [1/2, 1); return that power's exponent as well."""
     exponent = math.frexp(float(np.abs(values).max()))[1]
-    return np.ldexp(values, -exponent), exponent
+    return _times_power_of_two(values, -exponent), exponent
+
+
+def _times_power_of_two(values: Array, exponent: int) -> Array:
+    """Return ``values`` * 2^``exponent``."""
+    if exponent == 0:
+        return values
+    # One multiplication is exact and ten times as fast as ldexp, while the factor itself is a normal number.
+    return values * 2.0**exponent if abs(exponent) < 1000 else np.ldexp(values, exponent)
+
+
+def _floored(reference: Array) -> Array:
+    """Return sqrt(reference^2 + 1e-2), what the relative error is relative to."""
+    if np.abs(reference).max() > 2.0**500:
+        return np.hypot(reference, 0.1)
+    floored: Array = np.sqrt(reference * reference + 1e-2)
+    return floored
 
 
 def _times_power(value: float, exponent: int) -> float:

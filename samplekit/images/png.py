@@ -78,6 +78,8 @@ def png_writer(pixels: NDArray[np.uint8], metadata: Mapping[str, Any]) -> Writer
     spec = oiio.ImageSpec(pixels.shape[1], pixels.shape[0], 3, oiio.UINT8)
     oiio.set_colorspace(spec, "srgb_rec709_scene")
     spec.attribute(metadata_.KEY, text)
+    # The default level takes five times as long for a tenth of the size.
+    spec.attribute("png:compressionLevel", 2)
 
     def write(temporary: Path) -> None:
         output = oiio.ImageOutput.create("png")

@@ -53,6 +53,11 @@ class ConfiguredScene:
         return f"<scene {self.text}>"
 
     @cached_property
+    def blocks(self) -> tuple[int, ...]:
+        """Sizes of the blocks of dimensions, in their order."""
+        return tuple(self.needs.values())
+
+    @cached_property
     def dims(self) -> int:
         """Number of dimensions that the scene needs with these options."""
         return sum(self.needs.values())

@@ -60,4 +60,4 @@ def locate(indices: NDArray[np.int64], plan: Plan) -> tuple[Realizations, NDArra
     boxes = np.empty((4, count))
     x, y, width, _ = plan.window
     _locate(indices, x, y, width, seed_word(plan.seed), plan.x_edges, plan.y_edges, keys, xs, ys, boxes)
-    return Realizations(keys, xs, ys, plan.seed), boxes
+    return Realizations(keys, xs, ys, plan.seed, plan.scene.blocks), boxes

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import functools
 import hashlib
+import importlib
+import sys
 import types
 from collections.abc import Callable
 from pathlib import Path
@@ -42,6 +44,18 @@ def _keyed_by_helpers(function: types.FunctionType) -> types.FunctionType:
     return types.FunctionType(code, function.__globals__, function.__name__, function.__defaults__, closure)
 
 
+def _import_without_scipy(module: str) -> None:
+    """Import a part of numba that imports scipy.linalg only to see whether there is a BLAS: a quarter of the start-up."""
+    probe = "scipy.linalg.cython_blas"
+    if module in sys.modules or probe in sys.modules:
+        return
+    sys.modules[probe] = types.ModuleType(probe)
+    try:
+        importlib.import_module(module)
+    finally:
+        del sys.modules[probe]
+
+
 def kernel(signature: str) -> Callable[[Function], Function]:
     """Compile a function for ``signature``, without the interpreter's lock, cached where a cache can be written.
 
@@ -57,6 +71,7 @@ def kernel(signature: str) -> Callable[[Function], Function]:
         if config.DISABLE_JIT:
             return np.errstate(over="ignore")(function)
         keyed = _keyed_by_helpers(cast("types.FunctionType", function))
+        _import_without_scipy("numba.np.arraymath")
         try:
             compiled = numba.njit(signature, nogil=True, cache=True, error_model="numpy")(keyed)
         except Exception:

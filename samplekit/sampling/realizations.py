@@ -35,15 +35,21 @@ class Realizations:
         int64[R]. Pixel coordinates; a plain list of realisations is the row y = 0.
     seed
         The seed, for samplers that share something between all pixels.
+    blocks
+        Sizes of the blocks that the dimensions form by purpose, such as (2, 2, 1) for pixel, lens and time; empty when
+        nothing is known of them.
     """
 
     keys: NDArray[np.uint64]
     x: NDArray[np.int64]
     y: NDArray[np.int64]
     seed: int
+    blocks: tuple[int, ...] = ()
 
     @classmethod
-    def of_pixels(cls, x: NDArray[np.int64], y: NDArray[np.int64], seed: int) -> Realizations:
+    def of_pixels(
+        cls, x: NDArray[np.int64], y: NDArray[np.int64], seed: int, blocks: tuple[int, ...] = ()
+    ) -> Realizations:
         """Realisations of the pixels (x, y), each coordinate from 0 to 2^32 - 1.
 
         Raises
@@ -58,13 +64,13 @@ class Realizations:
             if coordinate.size and (coordinate.min() < 0 or coordinate.max() > LARGEST_COORDINATE):
                 raise UsageError(f"pixel coordinates must be from 0 to {LARGEST_COORDINATE}")
         code = x.astype(np.uint64) | (y.astype(np.uint64) << np.uint64(32))
-        return cls(_mix64(code ^ seed_word(seed)), x, y, seed)
+        return cls(_mix64(code ^ seed_word(seed)), x, y, seed, blocks)
 
     @classmethod
-    def of_trials(cls, start: int, stop: int, seed: int) -> Realizations:
+    def of_trials(cls, start: int, stop: int, seed: int, blocks: tuple[int, ...] = ()) -> Realizations:
         """Realisations start to stop: the pixels (start, 0) to (stop - 1, 0)."""
         x = np.arange(start, stop, dtype=np.int64)
-        return cls.of_pixels(x, np.zeros_like(x), seed)
+        return cls.of_pixels(x, np.zeros_like(x), seed, blocks)
 
     def random_words(self, dims: int) -> NDArray[np.uint64]:
         """64 random bits for each realisation and dimension, uint64[R, dims]: for shifts and the like, in NumPy.
@@ -78,7 +84,7 @@ class Realizations:
         return int(self.keys.size)
 
     def __getitem__(self, rows: slice) -> Realizations:
-        return Realizations(self.keys[rows], self.x[rows], self.y[rows], self.seed)
+        return Realizations(self.keys[rows], self.x[rows], self.y[rows], self.seed, self.blocks)
 
 
 def seed_word(seed: int) -> np.uint64:
