@@ -1,0 +1,231 @@
+"""``samplekit spectrum``: the expected power spectrum of a sampler, or the spectrum of an error image."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from samplekit.cli.completion import complete_sampler
+from samplekit.cli.options import JsonOption, SeedOption  # noqa: TC001 (typer reads annotations)
+
+if TYPE_CHECKING:
+    from samplekit_spectrum.spectrum import Spectrum
+
+SCHEMA = "samplekit.spectrum/1"
+IMAGE_SCHEMA = "samplekit.error-spectrum/1"
+INTERRUPTED = 130
+
+
+def spectrum(
+    sampler: Annotated[
+        str,
+        typer.Option(
+            "--sampler",
+            "-s",
+            metavar="NAME[:OPTION=VALUE,...][+RANDOMIZER]",
+            help="The sampler, such as jittered or sobol+owen.",
+            autocompletion=complete_sampler,
+        ),
+    ] = "",
+    count: Annotated[str, typer.Option("--count", "-n", metavar="N", help="Points of a set, such as 256 or 2^8.")] = "",
+    realizations: Annotated[
+        str, typer.Option("--realizations", "-r", metavar="R", help="Independent sets that the mean is over.")
+    ] = "100",
+    max_frequency: Annotated[
+        str,
+        typer.Option("--max-frequency", "-f", metavar="F", help="Largest frequency; by default about 4 sqrt N."),
+    ] = "",
+    dims: Annotated[str, typer.Option("--dims", "-d", metavar="D", help="Dimensions of the sets; by default 2.")] = "",
+    project: Annotated[
+        str,
+        typer.Option("--project", metavar="I,J", help="Dimensions to project on, from 0; 'all': every pair."),
+    ] = "",
+    homogenize: Annotated[
+        bool, typer.Option("--homogenize", help="Follow the sampler with a random toroidal shift, as +shift does.")
+    ] = False,
+    step: Annotated[
+        str, typer.Option("--step", metavar="H", help="Distance of neighbouring frequencies; by default 1.")
+    ] = "",
+    frequencies: Annotated[
+        str,
+        typer.Option("--frequencies", metavar="X,Y;X,Y;...", help="These frequencies alone, of any size up to 2^40."),
+    ] = "",
+    image: Annotated[
+        str,
+        typer.Option("--image", metavar="FILE.exr", help="Instead of a sampler: a rendering; its error is looked at."),
+    ] = "",
+    scale: Annotated[
+        str, typer.Option("--scale", metavar="P", help="N times the power that is drawn white; by default 2.")
+    ] = "",
+    seed: SeedOption = "0",
+    output: Annotated[
+        str,
+        typer.Option("--output", "-o", metavar="PATH", help="A folder, or STEM.exr; by default the current folder."),
+    ] = "",
+    threads: Annotated[
+        str, typer.Option("--threads", "-t", metavar="T", help="Threads; by default one for each processor.")
+    ] = "",
+    json: JsonOption = False,
+) -> int:
+    """Show the expected power spectrum E|S(m)|^2 of a sampler, S(m) = 1/N sum exp(-2 pi i m.x).
+
+    Writes STEM.exr (mean and standard error), STEM.png, and the radial mean as STEM.radial.csv, .png and .svg.
+
+    Example: samplekit spectrum --sampler jittered --count 256
+    """
+    from samplekit.errors import UsageError
+
+    if image:
+        if sampler or count:
+            raise UsageError("--image takes no --sampler and no --count: it looks at the error of a rendering")
+        return _of_image(image, output, json)
+    if not sampler or not count:
+        raise UsageError("expected --sampler and --count, or --image")
+    from samplekit.cli.notices import announce_compilation
+
+    announce_compilation()
+    import time
+
+    from samplekit.cli.progress import Progress
+    from samplekit.parsing import parse_count, parse_seed
+    from samplekit.sampling.configured import configured_sampler
+    from samplekit_spectrum.cli.values import parse_positive, parse_projections, parse_vectors
+    from samplekit_spectrum.frequencies import Listed
+    from samplekit_spectrum.output import check_stem, endings, write_spectra
+    from samplekit_spectrum.spectrum import powers
+    from samplekit_spectrum.tables import spectrum_json, spectrum_lines
+
+    number = parse_count(count, "count")
+    size = parse_count(dims, "dims") if dims else None
+    projects = parse_projections(project, size)
+    listed = parse_vectors(frequencies) if frequencies else None
+    white = parse_positive(scale, "scale") if scale else None
+    chosen = configured_sampler(sampler)
+    width = len(projects[0]) if projects[0] is not None else size or 2
+    stem = check_stem(
+        output, f"spectrum-{chosen.text}-{number}", endings(width, len(projects), listed=listed is not None)
+    )
+    began = time.perf_counter()
+    with Progress("spectra") as progress:
+        spectra = powers(
+            chosen,
+            number,
+            projects,
+            realizations=parse_count(realizations, "realizations"),
+            max_frequency=parse_count(max_frequency, "max-frequency") if max_frequency else None,
+            step=parse_positive(step, "step") if step else 1.0,
+            frequencies=listed,
+            dims=size,
+            homogenize=homogenize,
+            seed=parse_seed(seed),
+            threads=parse_count(threads, "threads") if threads else None,
+            progress=progress,
+            keep_interrupted=bool(output),
+        )
+    seconds = time.perf_counter() - began
+    first = spectra[0]
+    described = _describe(first, homogenize, project, [spectrum_json(one)["bias"] for one in spectra], chosen)
+    files = write_spectra(stem, spectra, described, white)
+    if json:
+        from json import dumps
+
+        report: dict[str, Any] = {
+            **_facts(first),
+            "spectra": [spectrum_json(one) for one in spectra],
+            "seconds": seconds,
+            "files": [str(file) for file in files],
+        }
+        if not isinstance(first.frequencies, Listed):
+            report["max_frequency"], report["step"] = first.frequencies.reach, first.frequencies.step
+        typer.echo(dumps(report, allow_nan=False))
+    else:
+        sets = f"{first.realizations} realizations" if first.randomized else "one set: it is not random"
+        typer.echo(f"{first.sampler}, {first.count} points in {first.dims}D, {sets}, seed {first.seed}")
+        for one in spectra:
+            for line in spectrum_lines(one):
+                typer.echo(line)
+        typer.echo(f"  {'seconds':<16}{seconds:.3f}")
+        for file in files:
+            typer.echo(f"  {'wrote':<16}{file}")
+    if first.interrupted:
+        done = f"{first.realizations} of {first.requested} realizations"
+        typer.echo(f"samplekit: interrupted after {done}, which are kept", err=True)
+        return INTERRUPTED
+    return 0
+
+
+def _facts(spectrum: Spectrum) -> dict[str, Any]:
+    return {
+        "schema": SCHEMA,
+        "sampler": spectrum.sampler,
+        "count": spectrum.count,
+        "dims": spectrum.dims,
+        "realizations": spectrum.realizations,
+        "requested": spectrum.requested,
+        "interrupted": spectrum.interrupted,
+        "randomized": spectrum.randomized,
+        "seed": spectrum.seed,
+    }
+
+
+def _describe(spectrum: Spectrum, homogenize: bool, project: str, bias: list[Any], chosen: Any) -> dict[str, Any]:
+    """How the spectrum was made; the same for the same command, so no times and no paths."""
+    from importlib.metadata import version
+
+    from samplekit.provenance import versions
+    from samplekit_spectrum.frequencies import Cube
+
+    words = [f"samplekit spectrum --sampler {chosen.text} --count {spectrum.count}"]
+    words.append(f"--realizations {spectrum.requested} --dims {spectrum.dims}")
+    cube = spectrum.frequencies
+    if isinstance(cube, Cube):
+        words.append(f"--max-frequency {cube.reach}" + (f" --step {cube.step!r}" if cube.step != 1.0 else ""))
+    words += [f"--project {project}"] * bool(project) + ["--homogenize"] * homogenize + [f"--seed {spectrum.seed}"]
+    facts = _facts(spectrum)
+    return {
+        **facts,
+        "seed": str(spectrum.seed),
+        "command": " ".join(words),
+        "versions": versions() | {"ducc0": version("ducc0"), "samplekit-spectrum": version("samplekit-spectrum")},
+        "sampler_plugin": str(chosen.plugin),
+        "sampler_notes": chosen.fresh().notes(spectrum.count, spectrum.dims),
+        "quantity": "E|S(m)|^2 with S(m) = (1/N) sum exp(-2 pi i m.x); DC, which is 1, in the middle",
+        "bias": bias,
+    }
+
+
+def _of_image(image: str, output: str, as_json: bool) -> int:
+    from pathlib import Path
+
+    from samplekit.provenance import versions
+    from samplekit_spectrum.error_image import error_spectrum, read_error
+    from samplekit_spectrum.output import MAPS, RADIAL, check_stem, write_error_spectrum
+    from samplekit_spectrum.tables import error_lines, finite, radial_json
+
+    path = Path(image)
+    stem = check_stem(output, f"spectrum-{path.stem}", MAPS + RADIAL)
+    found = error_spectrum(read_error(path))
+    facts: dict[str, Any] = {
+        "schema": IMAGE_SCHEMA,
+        "image": path.name,
+        "size": [found.power.shape[1], found.power.shape[0]],
+        "verdict": found.verdict,
+        "low": finite(found.low),
+        "low_standard_error": finite(found.low_standard_error),
+        "rmse": finite(found.rmse),
+        "bias": finite(found.bias),
+    }
+    files = write_error_spectrum(stem, found, {**facts, "versions": versions()}, path.name)
+    if as_json:
+        from json import dumps
+
+        report = {**facts, "radial": radial_json(found.radial), "files": [str(file) for file in files]}
+        typer.echo(dumps(report, allow_nan=False))
+        return 0
+    typer.echo(f"error of {path.name}, {found.power.shape[1]}x{found.power.shape[0]}")
+    for line in error_lines(found):
+        typer.echo(line)
+    for file in files:
+        typer.echo(f"  {'wrote':<16}{file}")
+    return 0

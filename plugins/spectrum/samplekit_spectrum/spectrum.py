@@ -1,0 +1,289 @@
+"""The expected power spectrum of a sampler, as an object."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from samplekit.errors import UsageError
+from samplekit.sampling.configured import ConfiguredSampler, configured_sampler
+from samplekit.sampling.realizations import check_seed
+from samplekit_spectrum.bias import Bias, find_bias
+from samplekit_spectrum.expectation import Source, View, expectations
+from samplekit_spectrum.frequencies import Cube, Frequencies, Listed
+from samplekit_spectrum.homogenized import homogenized
+from samplekit_spectrum.radial import Radial, radial
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from numpy.typing import ArrayLike, NDArray
+
+    from samplekit_spectrum.moments import Moments
+
+LARGEST_REACH = 2**20
+LARGEST_FREQUENCY = 2.0**40
+REALIZATIONS = 100
+
+
+@dataclass(frozen=True, eq=False)
+class Spectrum:
+    """The expected power spectrum E|S(m)|^2 of a sampler, S(m) = (1/N) sum_k exp(-2 pi i m . x_k).
+
+    Attributes
+    ----------
+    sampler, count, dims, project
+        Whose sets: the text that chooses the sampler, N, dimensions of the sets, and those that the spectrum is of.
+    realizations, requested
+        How many there are means of, and how many were asked for: more, after an interrupt. A sampler that is not random
+        has one.
+    seed
+        The seed.
+    frequencies
+        A ``Cube`` of frequencies or ``Listed`` ones.
+    """
+
+    sampler: str
+    count: int
+    dims: int
+    project: tuple[int, ...]
+    realizations: int
+    requested: int
+    seed: int
+    frequencies: Frequencies
+    randomized: bool
+    _moments: Moments
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether realisations that were asked for are missing."""
+        return self.realizations < self.requested
+
+    @property
+    def mean(self) -> NDArray[np.float64]:
+        """E|S|^2: float64[..., 2F + 1, 2F + 1], axes (..., y, x), DC (which is 1) in the middle; or float64[K]."""
+        return self._shaped(self._moments.mean)
+
+    @property
+    def standard_error(self) -> NDArray[np.float64]:
+        """Of ``mean``: 0 for a sampler that is not random, NaN for a single realisation of one that is."""
+        errors = self._moments.standard_error if self.randomized else np.zeros(self.frequencies.half)
+        return self._shaped(errors)
+
+    @property
+    def normalized(self) -> NDArray[np.float64]:
+        """N E|S|^2, which is 1 for white noise."""
+        return self.count * self.mean
+
+    @cached_property
+    def bias(self) -> Bias:
+        """Where |E S(m)| is most significant."""
+        return find_bias(self.frequencies, self._moments, randomized=self.randomized)
+
+    @cached_property
+    def radial(self) -> Radial:
+        """The mean over rings (shells in 3D, pairs in 1D).
+
+        Raises
+        ------
+        UsageError
+            Listed frequencies lie on no rings.
+        """
+        if not isinstance(self.frequencies, Cube):
+            raise UsageError("listed frequencies have no radial mean")
+        return radial(self.frequencies, self._moments)
+
+    def _shaped(self, half: NDArray[np.float64]) -> NDArray[np.float64]:
+        return self.frequencies.full(half) if isinstance(self.frequencies, Cube) else half.copy()
+
+    def _repr_png_(self) -> bytes | None:
+        if not isinstance(self.frequencies, Cube) or self.frequencies.dims == 1:
+            return None
+        from samplekit_spectrum.picture import png_bytes, spectrum_picture
+
+        return png_bytes(spectrum_picture([self])[0])
+
+
+def power(
+    sampler: str | ConfiguredSampler,
+    count: int,
+    *,
+    realizations: int = REALIZATIONS,
+    max_frequency: int | None = None,
+    step: float = 1.0,
+    frequencies: ArrayLike | None = None,
+    dims: int | None = None,
+    project: Sequence[int] | None = None,
+    homogenize: bool = False,
+    seed: int = 0,
+    threads: int | None = None,
+    progress: Callable[[int, int], None] = lambda _, __: None,
+) -> Spectrum:
+    """The expected power spectrum of a sampler.
+
+    Parameters
+    ----------
+    sampler
+        ``NAME[:option=value,...][+RANDOMIZER]``, or what :func:`samplekit.sampler` returned. Samplers that reuse sets
+        are asked for fresh ones.
+    count
+        N, points of a set.
+    realizations
+        Sets that the mean is over.
+    max_frequency
+        F: all integer frequencies with |m|_inf <= F. By default about 4 sqrt(N).
+    step
+        Distance of neighbouring frequencies, 1 for the integers: F is in multiples of it.
+    frequencies
+        float[K, dims]: these frequencies instead, of magnitude up to 2^40.
+    dims
+        Dimensions of the sets; by default 2, or as many as ``project`` needs.
+    project
+        Dimensions that the spectrum is of, up to 3; by default all.
+    homogenize
+        Follow the sampler with a random shift.
+    seed, threads, progress
+        From 0 to 2^64 - 1; by default one for each processor; called with the numbers of realisations done and to do.
+
+    Raises
+    ------
+    UsageError
+        The request cannot be carried out.
+    SamplekitError
+        The sampler failed, or memory is short.
+
+    Examples
+    --------
+    >>> from samplekit_spectrum import power
+    >>> spectrum = power("jittered", 64, realizations=10, max_frequency=16)
+    >>> spectrum.mean.shape, float(spectrum.mean[16, 16])
+    ((33, 33), 1.0)
+    """
+    (spectrum,) = powers(
+        sampler,
+        count,
+        [project],
+        realizations=realizations,
+        max_frequency=max_frequency,
+        step=step,
+        frequencies=frequencies,
+        dims=dims,
+        homogenize=homogenize,
+        seed=seed,
+        threads=threads,
+        progress=progress,
+    )
+    return spectrum
+
+
+def powers(
+    sampler: str | ConfiguredSampler,
+    count: int,
+    projects: Sequence[Sequence[int] | None],
+    *,
+    realizations: int = REALIZATIONS,
+    max_frequency: int | None = None,
+    step: float = 1.0,
+    frequencies: ArrayLike | None = None,
+    dims: int | None = None,
+    homogenize: bool = False,
+    seed: int = 0,
+    threads: int | None = None,
+    progress: Callable[[int, int], None] = lambda _, __: None,
+    keep_interrupted: bool = False,
+) -> list[Spectrum]:
+    """As :func:`power`, for several projections of the same sets; if wanted, of what is done at an interrupt."""
+    chosen = configured_sampler(sampler) if isinstance(sampler, str) else sampler
+    source_sampler = homogenized(chosen) if homogenize else chosen
+    source_sampler = source_sampler.fresh()
+    axes, dims = _axes(projects, dims)
+    source_sampler.check(count, dims)
+    check_seed(seed)
+    _check_positive(realizations, "realizations", 2**40)
+    where = _frequencies(count, len(axes[0]), max_frequency, step, frequencies)
+    randomized = source_sampler.spec.randomized
+    wanted = realizations if randomized else 1
+    found = expectations(
+        Source(source_sampler, int(count), dims, int(seed)),
+        [View(pair, where) for pair in axes],
+        wanted,
+        threads=threads,
+        progress=progress,
+        keep_interrupted=keep_interrupted,
+    )
+    return [
+        Spectrum(
+            source_sampler.text,
+            int(count),
+            dims,
+            pair,
+            moments.realizations,
+            wanted,
+            int(seed),
+            where,
+            randomized,
+            moments,
+        )
+        for pair, moments in zip(axes, found, strict=True)
+    ]
+
+
+def default_reach(count: int, dims: int) -> int:
+    """The reach that shows a spectrum up to where it is flat: about four times the mean frequency of the points."""
+    most = {1: 4096, 2: 512, 3: 32}[dims]
+    least = {1: 32, 2: 32, 3: 8}[dims]
+    wanted = 4.0 * count ** (1.0 / dims)
+    return int(min(max(2 ** math.ceil(math.log2(max(wanted, 1.0))), least), most))
+
+
+def _check_positive(value: object, what: str, most: int) -> None:
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not 1 <= value <= most:
+        raise UsageError(f"{what} {value}: expected an integer from 1 to {most}")
+
+
+def _axes(projects: Sequence[Sequence[int] | None], dims: int | None) -> tuple[list[tuple[int, ...]], int]:
+    if dims is not None:
+        _check_positive(dims, "dims", 2**20)
+    least = max((max(project) + 1 for project in projects if project), default=2)
+    size = int(dims) if dims is not None else least
+    axes = []
+    for project in projects:
+        if project is None:
+            if size > 3:
+                raise UsageError(
+                    f"a spectrum in {size} dimensions cannot be taken: choose two or three of them to project on"
+                )
+            axes.append(tuple(range(size)))
+            continue
+        pair = tuple(int(axis) for axis in project)
+        if not 1 <= len(pair) <= 3 or len(set(pair)) != len(pair) or min(pair) < 0:
+            raise UsageError(
+                f"projection {','.join(map(str, pair))}: expected up to three different dimensions, from 0"
+            )
+        if max(pair) >= size:
+            raise UsageError(f"projection {','.join(map(str, pair))}: the sets have {size} dimensions, 0 to {size - 1}")
+        axes.append(pair)
+    return axes, size
+
+
+def _frequencies(
+    count: int, dims: int, max_frequency: int | None, step: float, listed: ArrayLike | None
+) -> Frequencies:
+    if listed is not None:
+        if max_frequency is not None or step != 1.0:
+            raise UsageError("listed frequencies and a largest frequency or a step exclude each other")
+        vectors = np.atleast_2d(np.asarray(listed, np.float64))
+        if vectors.ndim != 2 or vectors.shape[1] != dims or vectors.size == 0:
+            raise UsageError(f"frequencies of shape {list(vectors.shape)}: expected [K, {dims}]")
+        if not np.all(np.abs(vectors) <= LARGEST_FREQUENCY):
+            raise UsageError("a frequency is not finite, or larger than 2^40")
+        return Listed(np.ascontiguousarray(vectors))
+    if not (isinstance(step, (int, float)) and 0.0 < step <= LARGEST_FREQUENCY):
+        raise UsageError(f"step {step}: expected a number above 0, up to 2^40")
+    reach = default_reach(count, dims) if max_frequency is None else max_frequency
+    _check_positive(reach, "max-frequency", LARGEST_REACH)
+    return Cube(dims, int(reach), float(step))
