@@ -32,7 +32,8 @@ def ratio(name: str, a: list[str], b: list[str], repeats: int, folder: str) -> N
     measure(a, folder), measure(b, folder)
     pairs = [(measure(a, folder)[0], measure(b, folder)[0]) for _ in range(repeats)]
     ratios = [x / y for x, y in pairs]
-    print(f"{name}: {median(ratios):.2f} (CPU {median(x for x, _ in pairs):.2f} s / {median(y for _, y in pairs):.2f} s)")
+    a_seconds, b_seconds = (median(times) for times in zip(*pairs, strict=True))
+    print(f"{name}: {median(ratios):.2f} (CPU {a_seconds:.2f} s / {b_seconds:.2f} s)")
 
 
 def report(words: list[str], folder: str) -> dict[str, float]:

@@ -90,9 +90,21 @@ class Option:
     def _range(self) -> str:
         if self.choices or (self.minimum is None and self.maximum is None):
             return ", finite" if isinstance(self.default, float) and not self.choices else ""
-        low = "-inf" if self.minimum is None else f"{self.minimum:g}"
-        high = "any finite value" if self.maximum is None else f"{self.maximum:g}"
-        return f" from {low} to {high}"
+        low = "" if self.minimum is None else f" of at least {self.minimum:g}"
+        high = "" if self.maximum is None else f" of at most {self.maximum:g}"
+        return (low and high and f" from {self.minimum:g} to {self.maximum:g}") or low or high
+
+
+def written(name: str, given: Mapping[str, object], values: Mapping[str, OptionValue]) -> str:
+    """``NAME:option=value,...`` as on the command line, with the options that were given, each as its shortest text."""
+    chosen = ",".join(f"{option}={_shortest(value)}" for option, value in values.items() if option in given)
+    return f"{name}:{chosen}" if chosen else name
+
+
+def _shortest(value: OptionValue) -> str:
+    if isinstance(value, bool):
+        return str(value).lower()
+    return str(value).removesuffix(".0")
 
 
 def _convert(kind: type, value: object) -> OptionValue:

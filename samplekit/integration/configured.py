@@ -10,6 +10,7 @@ import numpy as np
 from samplekit.errors import SamplekitError, UsageError
 from samplekit.parsing import parse_choice
 from samplekit.registry import BUILTIN, Offer, registry
+from samplekit.specs import written
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -39,8 +40,7 @@ class ConfiguredScene:
     def __init__(self, offer: Offer, options: Mapping[str, object]) -> None:
         spec: SceneSpec = offer.spec
         values = spec.parse_options(options)
-        chosen = ",".join(f"{name}={value}" for name, value in values.items() if name in options)
-        self.text = f"{spec.name}:{chosen}" if chosen else spec.name
+        self.text = written(spec.name, options, values)
         self.spec = spec
         self.plugin = offer.plugin
         self._trusted = offer.plugin.name == BUILTIN

@@ -45,7 +45,7 @@ def _keyed_by_helpers(function: types.FunctionType) -> types.FunctionType:
 
 
 def _import_without_scipy(module: str) -> None:
-    """Import a part of numba that imports scipy.linalg only to see whether there is a BLAS: a quarter of the start-up."""
+    """Import a part of numba that imports scipy.linalg just to see if there is a BLAS: a quarter of the start-up."""
     probe = "scipy.linalg.cython_blas"
     if module in sys.modules or probe in sys.modules:
         return

@@ -12,6 +12,7 @@ from samplekit.errors import SamplekitError, UsageError
 from samplekit.parsing import parse_choice
 from samplekit.registry import BUILTIN, Offer, registry
 from samplekit.sampling.realizations import Realizations, check_seed
+from samplekit.specs import written
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -37,7 +38,7 @@ class ConfiguredSampler:
         spec: SamplerSpec = offer.spec
         values = spec.parse_options(options)
         self.plugin = offer.plugin
-        self.text = _text(spec.name, options, values) + (f"+{randomizer.spec.name}" if randomizer else "")
+        self.text = written(spec.name, options, values) + (f"+{randomizer.spec.name}" if randomizer else "")
         self._trusted = all(o.plugin.name == BUILTIN for o in (offer, randomizer) if o)
         self._offers = offer, randomizer
         self._options = dict(options)
@@ -211,8 +212,3 @@ def _randomized(sampler: SamplerSpec, randomizer: RandomizerSpec) -> SamplerSpec
         promises=tuple(promise for promise in sampler.promises if promise.keyword in randomizer.keeps),
         largest_index=min(sampler.largest_index, 2**32 - 1),
     )
-
-
-def _text(name: str, given: Mapping[str, object], values: Mapping[str, OptionValue]) -> str:
-    chosen = ",".join(f"{option}={values[option]}" for option in values if option in given)
-    return f"{name}:{chosen}" if chosen else name
