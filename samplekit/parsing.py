@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from samplekit.errors import UsageError
 
 LARGEST_SEED = 2**64 - 1
+_MOST_COUNTS = 1000
 
 
 @dataclass(frozen=True)
@@ -57,6 +58,42 @@ def parse_count(text: str, what: str) -> int:
     if not 1 <= value <= 2**63:
         raise UsageError(f"{what} {text}: expected a positive integer such as 16 or 2^4")
     return value
+
+
+def parse_counts(text: str, what: str) -> list[int]:
+    """Read a list of positive integers: ``1,4,16``, a range of powers ``2^0..2^12`` or ``4^1..4^5``, or both mixed.
+
+    Parameters
+    ----------
+    text, what
+        What is read, and its name in an error.
+
+    Returns
+    -------
+    The integers, rising; each once.
+
+    Raises
+    ------
+    UsageError
+        Not of this form, a range that does not rise or is not of powers of one base, or more than 1000 integers.
+    """
+    counts: set[int] = set()
+    for item in text.split(","):
+        first, dots, last = item.strip().partition("..")
+        if not dots:
+            counts.add(parse_count(first, what))
+            continue
+        ends = [re.fullmatch(r"(\d{1,18})\^(\d{1,3})", end.strip(), re.ASCII) for end in (first, last)]
+        if ends[0] is None or ends[1] is None or int(ends[0][1]) != int(ends[1][1]) or int(ends[0][1]) < 2:
+            raise UsageError(f"{what} {item.strip()}: expected a range of powers of one base, such as 2^0..2^12")
+        base, start, stop = int(ends[0][1]), int(ends[0][2]), int(ends[1][2])
+        if start > stop:
+            raise UsageError(f"{what} {item.strip()}: the range falls: expected {base}^{stop}..{base}^{start}")
+        parse_count(last, what)
+        counts.update(base**exponent for exponent in range(start, stop + 1))
+    if len(counts) > _MOST_COUNTS:
+        raise UsageError(f"{what}: {len(counts)} of them, at most {_MOST_COUNTS}")
+    return sorted(counts)
 
 
 def parse_seed(text: str) -> int:
