@@ -71,7 +71,6 @@ def run(arguments: list[str]) -> int:
     except (SamplekitError, _TyperError) as error:
         return _failed(_message(error), FAILED, arguments)
     except (KeyboardInterrupt, typer.Abort):
-        print("samplekit: interrupted", file=sys.stderr)  # noqa: T201
         return INTERRUPTED
     except BrokenPipeError:
         # The reader left: nothing more can be said on stdout, and Python must not try when it exits.
@@ -96,5 +95,7 @@ def _failed(message: str, status: int, arguments: list[str]) -> int:
         import json
 
         print(json.dumps({"schema": "samplekit.error/1", "error": message}))  # noqa: T201
-    print(f"samplekit: {message}", file=sys.stderr)  # noqa: T201
+    # Without arguments the help has been shown, and there is nothing to add.
+    if message:
+        print(f"samplekit: {message}", file=sys.stderr)  # noqa: T201
     return status

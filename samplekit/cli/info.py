@@ -32,10 +32,18 @@ def info(
 
 def _lines(values: dict[str, Any], indent: str) -> list[str]:
     lines: list[str] = []
+    width = max((len(name) for name in values), default=0)
     for name, value in values.items():
         if isinstance(value, dict):
             lines += [f"{indent}{name}", *_lines(value, indent + "  ")]
         else:
-            text = ", ".join(str(item) for item in value) if isinstance(value, list) else str(value)
-            lines.append(f"{indent}{name:<{18 - len(indent)}}{text}")
+            lines.append(f"{indent}{name:<{width}}  {_text(value)}".rstrip())
     return lines
+
+
+def _text(value: Any) -> str:
+    if isinstance(value, list):
+        return ", ".join(_text(item) for item in value)
+    if isinstance(value, dict):
+        return " ".join(_text(item) for item in value.values())
+    return str(value)
