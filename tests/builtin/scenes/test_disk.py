@@ -8,8 +8,8 @@ import mpmath
 import numpy as np
 import pytest
 
-from samplekit.errors import UsageError
 from samplekit.builtin.scenes.disk import Disk
+from samplekit.errors import UsageError
 
 LAST = 1.0 - 2.0**-53
 BOXES = 250

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies
 
-from samplekit.errors import UsageError
 from samplekit.builtin.scenes.step import Step
+from samplekit.errors import UsageError
 
 LAST = 1.0 - 2.0**-53
 BOXES = 200
