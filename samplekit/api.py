@@ -158,7 +158,7 @@ def estimate(
     True
     """
     integrand, source = _scene(scene), _sampler(sampler)
-    source.check(count, integrand.dims)
+    source.check(count, integrand.dims, integrand.blocks)
     check_seed(seed)
     if isinstance(realizations, bool) or not isinstance(realizations, (int, np.integer)) or realizations < 1:
         raise UsageError(f"realizations {realizations}: expected a positive integer")

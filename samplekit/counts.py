@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from functools import cache
+from itertools import islice
 from typing import TYPE_CHECKING
 
 from samplekit.errors import UsageError
@@ -62,21 +63,37 @@ def _root(count: int, degree: int) -> int:
     return next((r for r in (root - 1, root, root + 1) if r >= 0 and r**degree == count), 0)
 
 
+def fibonacci_numbers(least: int) -> tuple[int, ...]:
+    """The Fibonacci numbers 1, 1, 2, 3, 5, ... up to the first one that is larger than ``least``."""
+    numbers = [1, 1]
+    while numbers[-1] <= least:
+        numbers.append(numbers[-2] + numbers[-1])
+    return tuple(numbers)
+
+
+def _number_in(rule: str) -> int:
+    """The number that ends a rule such as ``powers-of-2``."""
+    return int(rule.rpartition("-")[2])
+
+
 def _rule(rule: str, dims: int) -> Callable[[int], bool]:
     if rule == "any":
         return lambda _: True
     if rule == "products":
         return lambda count: grid_sides(count, dims) is not None
-    if rule == "products-in-2":
-        return lambda count: grid_sides(count, 2) is not None
+    if rule.startswith("products-in-"):
+        return lambda count: grid_sides(count, _number_in(rule)) is not None
     if rule == "squares":
         return lambda count: _root(count, 2) > 0
     if rule == "prime-squares":
         return lambda count: _is_prime(_root(count, 2))
     if rule == "prime-cubes":
         return lambda count: _is_prime(_root(count, 3))
-    base = int(rule.rpartition("-")[2])
-    return lambda count: _is_power(count, base)
+    if rule == "fibonacci":
+        return lambda count: count in fibonacci_numbers(count)
+    if rule.startswith("exactly-"):
+        return lambda count: count == _number_in(rule)
+    return lambda count: _is_power(count, _number_in(rule))
 
 
 def allows(rule: str, count: int, dims: int) -> bool:
@@ -89,9 +106,9 @@ def nearest_below(rule: str, count: int, dims: int) -> int | None:
     return next((n for n in _candidates(rule, count, dims, -1) if 1 <= n < count), None)
 
 
-def nearest_above(rule: str, count: int, dims: int) -> int:
-    """The smallest count above ``count`` that the rule allows."""
-    return next(n for n in _candidates(rule, count, dims, +1) if n > count)
+def nearest_above(rule: str, count: int, dims: int) -> int | None:
+    """The smallest count above ``count`` that the rule allows; None if there is none."""
+    return next((n for n in _candidates(rule, count, dims, +1) if n > count), None)
 
 
 def _candidates(rule: str, count: int, dims: int, direction: int) -> list[int]:
@@ -102,12 +119,16 @@ def _candidates(rule: str, count: int, dims: int, direction: int) -> list[int]:
         root = math.floor(max(count, 1) ** (1 / degree) + 1e-9)
         roots = range(root + 1, 0, -1) if direction < 0 else range(max(root - 1, 1), 2 * root + 8)
         allowed = _is_prime if rule.startswith("prime") else lambda _: True
-        return [r**degree for r in roots if allowed(r) and (r**degree - count) * direction > 0][:1]
+        return list(islice((r**degree for r in roots if (r**degree - count) * direction > 0 and allowed(r)), 1))
     if rule.startswith("powers-of-"):
-        base = int(rule.rpartition("-")[2])
+        base = _number_in(rule)
         exponent = 0 if base == 1 else int(math.log(max(count, 1), base))
         powers = [base ** max(exponent + step, 0) for step in ((1, 0, -1) if direction < 0 else (-1, 0, 1, 2))]
         return [n for n in powers if (n - count) * direction > 0][:1]
+    if rule == "fibonacci":
+        return [n for n in fibonacci_numbers(count)[::direction] if (n - count) * direction > 0][:1]
+    if rule.startswith("exactly-"):
+        return [_number_in(rule)]
     test = _rule(rule, dims)
     n = count + direction
     while n >= 1:
@@ -122,12 +143,17 @@ def describe(rule: str) -> str:
     words = {
         "any": "any number",
         "products": "products of near-equal sides (a grid)",
-        "products-in-2": "products of two near-equal sides (a grid)",
         "squares": "squares",
         "prime-squares": "squares of primes",
         "prime-cubes": "cubes of primes",
+        "fibonacci": "Fibonacci numbers",
     }
-    return words.get(rule, f"powers of {rule.rpartition('-')[2]}")
+    if rule.startswith("products-in-"):
+        number = _number_in(rule)
+        return f"products of {'two' if number == 2 else number} near-equal sides (a grid)"
+    if rule.startswith("exactly-"):
+        return f"exactly {_number_in(rule)}"
+    return words.get(rule) or f"powers of {_number_in(rule)}"
 
 
 def check_count(name: str, rule: str, count: int, dims: int) -> None:
@@ -142,6 +168,9 @@ def check_count(name: str, rule: str, count: int, dims: int) -> None:
         raise UsageError(f"count {count}: expected at least 1")
     if allows(rule, count, dims):
         return
+    if rule.startswith("exactly-"):
+        raise UsageError(f"{name} makes {describe(rule)} points, not {count}")
     nearest = [str(n) for n in (nearest_below(rule, count, dims), nearest_above(rule, count, dims)) if n is not None]
     where = "" if rule != "products" else f" in {dims} dimensions"
-    raise UsageError(f"{name} makes {describe(rule)}{where}, not {count}: the nearest are {' and '.join(nearest)}")
+    verb = "is" if len(nearest) == 1 else "are"
+    raise UsageError(f"{name} makes {describe(rule)}{where}, not {count}: the nearest {verb} {' and '.join(nearest)}")

@@ -20,7 +20,9 @@ if TYPE_CHECKING:
 API_VERSION = 1
 NAME = re.compile(r"^[a-z][a-z0-9-]*$")
 TARGET = re.compile(r"^[A-Za-z_][\w.]*:[A-Za-z_]\w*$")
-COUNTS = re.compile(r"^(any|products|products-in-2|squares|prime-squares|prime-cubes|powers-of-[1-9]\d*)$")
+COUNTS = re.compile(
+    r"^(any|products|products-in-[1-9]\d*|squares|prime-squares|prime-cubes|fibonacci|(powers-of|exactly)-[1-9]\d*)$"
+)
 PROGRESSIVE = re.compile(r"^(no|every-count|powers-of-[1-9]\d*)$")
 
 OptionValue = int | float | str | bool
@@ -47,6 +49,8 @@ class Option:
         Inclusive range of a number. ``maximum=math.inf`` lets infinity in; nothing lets NaN in.
     choices
         The words that a string option takes; empty for free text.
+    required
+        It must be given: ``default`` tells its type alone.
     """
 
     name: str
@@ -55,6 +59,7 @@ class Option:
     minimum: float | None = None
     maximum: float | None = None
     choices: tuple[str, ...] = ()
+    required: bool = False
 
     def __post_init__(self) -> None:
         _require(isinstance(self.name, str) and bool(NAME.match(self.name)), f"bad option name {self.name!r}")
@@ -230,13 +235,17 @@ class _Spec:
         Raises
         ------
         UsageError
-            An unknown option, or a value that its option does not take.
+            An unknown option, a required one that is missing, or a value that its option does not take.
         """
         known = {option.name: option for option in self.options}
         for name in given:
             if name not in known:
                 takes = ", ".join(known) if known else "none"
                 raise UsageError(f"{self.name} has no option {name!r}: it takes {takes}")
+        for name, option in known.items():
+            if option.required and name not in given:
+                example = f"{self.name}:{name}={name.upper()}"
+                raise UsageError(f"{self.name} needs the option {name} ({option.summary}): write {example}")
         try:
             return {
                 name: option.parse(given[name]) if name in given else option.default for name, option in known.items()
@@ -260,7 +269,7 @@ class SamplerSpec(_Spec):
         good sets.
     counts
         ``"any"``, ``"products"`` (a grid of near-equal sides over all dimensions), ``"products-in-2"`` (over pairs),
-        ``"squares"``, ``"prime-squares"``, ``"prime-cubes"``, ``"powers-of-B"``.
+        ``"squares"``, ``"prime-squares"``, ``"prime-cubes"``, ``"powers-of-B"``, ``"fibonacci"``, ``"exactly-N"``.
     randomized
         Another seed, and another realisation, gives other points.
     unbiased

@@ -129,7 +129,7 @@ def make_plan(
             raise UsageError(f"size {size[0]}x{size[1]}: expected width and height from 1 to {2**31}")
     width, height = int(size[0]), int(size[1])
     window = check_crop(crop, (width, height)) if crop else (0, 0, width, height)
-    sampler.check(count, scene.dims)
+    sampler.check(count, scene.dims, scene.blocks)
     pixels = window[2] * window[3]
     if pixels * count > MOST_SAMPLES:
         raise UsageError(

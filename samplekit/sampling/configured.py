@@ -88,13 +88,22 @@ class ConfiguredSampler:
         """What a user of these sets should know; see :meth:`Sampler.notes`."""
         return self._sampler.notes(count, dims)
 
-    def check(self, count: int, dims: int) -> None:
+    def check(self, count: int, dims: int, blocks: tuple[int, ...] = ()) -> None:
         """Raise unless this sampler makes sets of ``count`` points in ``dims`` dimensions.
+
+        Parameters
+        ----------
+        count, dims
+            Points of a set, and dimensions.
+        blocks
+            Sizes of the blocks that the dimensions form; see :class:`Realizations`.
 
         Raises
         ------
         UsageError
             Says what it makes, and the nearest counts.
+        SamplekitError
+            The plugin raised.
         """
         least, most = self.spec.dimensions
         if isinstance(dims, bool) or not isinstance(dims, (int, np.integer)) or dims < 1:
@@ -107,6 +116,12 @@ class ConfiguredSampler:
         if count - 1 > self.spec.largest_index:
             raise UsageError(f"{self.text} makes at most {self.spec.largest_index + 1} points, not {count}")
         check_count(self.text, self.spec.counts, int(count), int(dims))
+        try:
+            self._sampler.check(int(count), int(dims), blocks)
+        except SamplekitError:
+            raise
+        except Exception as error:
+            raise self._failure(error) from error
 
     def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets, see :meth:`Sampler.fill`; a plugin's points are checked, and its faults named.
@@ -209,6 +224,7 @@ def _randomized(sampler: SamplerSpec, randomizer: RandomizerSpec) -> SamplerSpec
         sampler,
         randomized=True,
         unbiased=randomizer.unbiased,
+        period=None,
         promises=tuple(promise for promise in sampler.promises if promise.keyword in randomizer.keeps),
         largest_index=min(sampler.largest_index, 2**32 - 1),
     )

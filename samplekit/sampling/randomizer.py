@@ -42,6 +42,10 @@ class RandomizedSampler(Sampler):
         self._sampler.fill(out, realizations, count, start)
         self._randomizer.apply(out, realizations, self.bases(out.shape[1]))
 
+    def check(self, count: int, dims: int, blocks: tuple[int, ...]) -> None:
+        """As the sampler."""
+        self._sampler.check(count, dims, blocks)
+
     def prepare(self, count: int, dims: int, progress: Callable[[int, int], None]) -> None:
         """As the sampler."""
         self._sampler.prepare(count, dims, progress)

@@ -57,6 +57,12 @@ class Sampler:
         """One set of ``count`` points, float64[count, dims] in [0, 1), made with ``rng`` alone."""
         raise NotImplementedError(f"{type(self).__name__} defines neither fill nor draw")
 
+    def check(self, count: int, dims: int, blocks: tuple[int, ...]) -> None:
+        """Raise :class:`samplekit.UsageError` if there are no such sets for a reason that the declaration cannot say.
+
+        ``blocks``: as in :class:`Realizations`; empty where nothing is known of them.
+        """
+
     def prepare(self, count: int, dims: int, progress: Callable[[int, int], None]) -> None:
         """Make what all sets of this kind share (tables, a bank of sets), called once before many are filled.
 
