@@ -8,6 +8,7 @@ from samplekit.specs import (
     LatinStrata,
     Net,
     Option,
+    OrthogonalArray,
     RandomizerSpec,
     SamplerSpec,
     SceneSpec,
@@ -52,6 +53,14 @@ def samplekit_samplers() -> list[SamplerSpec]:
             promises=(GridStrata(),),
         ),
         SamplerSpec(
+            "uncorrelated-jitter",
+            _SAMPLERS + "uncorrelated_jitter:UncorrelatedJitter",
+            "jittered pairs of dimensions (pixel, lens, ...) in random order",
+            reference="Cook, Porter, Carpenter 1984",
+            counts="products-in-2",
+            promises=(GridStrata(block=2),),
+        ),
+        SamplerSpec(
             "latin-hypercube",
             _SAMPLERS + "latin_hypercube:LatinHypercube",
             "one point in each of N intervals of every dimension",
@@ -83,6 +92,24 @@ def samplekit_samplers() -> list[SamplerSpec]:
             dimensions=(2, None),
             counts="products-in-2",
             promises=(LatinStrata(), GridStrata(block=2)),
+        ),
+        SamplerSpec(
+            "orthogonal-array",
+            _SAMPLERS + "orthogonal_array:OrthogonalArraySampler",
+            "jittered in every pair (or triple) of dimensions, and Latin",
+            reference="Jarosz, Enayet, Kensler, Kilpatrick, Christensen 2019; Bose 1938; Bush 1952",
+            options=(
+                Option("strength", 2, "dimensions that are stratified together", 2, 3),
+                Option(
+                    "offset",
+                    "correlated",
+                    "places within strata",
+                    choices=("jittered", "multi-jittered", "correlated"),
+                ),
+            ),
+            dimensions=(2, None),
+            counts="prime-squares",
+            promises=(OrthogonalArray(2), LatinStrata()),
         ),
         SamplerSpec(
             "van-der-corput",

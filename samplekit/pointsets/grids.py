@@ -131,11 +131,10 @@ def _phrase(promise: Promise, count: int, dims: int) -> str:
         side = count if promise.strength == 1 else _root(count, promise.strength)
         if side == 1:
             return ""
-        return (
-            f"{side} intervals of each axis"
-            if promise.strength == 1 or dims == 1
-            else f"{side} x {side} cells of each pair"
-        )
+        if promise.strength == 1 or dims == 1:
+            return f"{side} intervals of each axis"
+        together = min(promise.strength, dims)
+        return f"{_times((side,) * together)} cells of {'each pair' if together == 2 else f'every {together} axes'}"
     return ""
 
 
