@@ -7,51 +7,27 @@ of an estimate the sum of |f(m)|^2 E|S(m)|^2 (Pilleboue et al. 2015).
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from samplekit.builtin.randomizers.shift import Shift
 from samplekit.sampling.configured import ConfiguredSampler
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    import numpy as np
-    from numpy.typing import NDArray
-
-    from samplekit.sampling.realizations import Realizations
+from samplekit.sampling.randomizer import RandomizedSampler
 
 
 class Homogenized(ConfiguredSampler):
     """A sampler with its own randomizer, and behind it a shift; the same points as ``+shift`` where there is none."""
 
     def __init__(self, sampler: ConfiguredSampler) -> None:
+        # Everything as the sampler has it, but for the points.
+        vars(self).update(vars(sampler))
         self._inner = sampler
-        self._shift = Shift()
-        self.plugin = sampler.plugin
+        self._sampler = RandomizedSampler(self._sampler, Shift(), "shift")
         self.text = f"{sampler.text}+shift"
-        self.spec = replace(sampler.spec, randomized=True, unbiased=True)
-
-    @property
-    def streams(self) -> bool:
-        """As the sampler."""
-        return self._inner.streams
+        self.spec = replace(sampler.spec, randomized=True, unbiased=True, promises=())
 
     def fresh(self) -> ConfiguredSampler:
         """With every realisation made afresh."""
-        return Homogenized(self._inner.fresh())
-
-    def prepare(self, count: int, dims: int, progress: Callable[[int, int], None] = lambda _, __: None) -> None:
-        """As the sampler."""
-        self._inner.prepare(count, dims, progress)
-
-    def notes(self, count: int, dims: int) -> list[str]:
-        """As the sampler."""
-        return self._inner.notes(count, dims)
-
-    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
-        """Write points of the sets."""
-        self._inner.fill(out, realizations, count, start)
-        self._shift.apply(out, realizations, ())
+        inner = self._inner.fresh()
+        return self if inner is self._inner else Homogenized(inner)
 
 
 def is_homogeneous(sampler: ConfiguredSampler) -> bool:

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 import ducc0  # type: ignore[import-not-found]
 import numpy as np
 
-from samplekit_spectrum.exponentials import exponentials, multiples
+from samplekit_spectrum.exponentials import both_signs, exponentials, multiples
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -34,9 +34,12 @@ LARGEST_WHOLE = 2**24
 
 _SLAB = 2**22
 
+_UNTHREADED = 2**18
+"""Products of float64 in one call up to which OpenBLAS keeps to one thread."""
+
 # Seconds on one core by number of dimensions, fitted to measurements (benchmarks/spectrum.py): only their ratios
 # matter. A fixed model and not a race at run time, so that the same command gives the same bytes.
-_PRODUCT_TERM = {1: 5e-9, 2: 0.16e-9, 3: 0.17e-9}
+_PRODUCT_TERM = {1: 5e-9, 2: 0.13e-9, 3: 0.15e-9}
 _EXPONENTIAL = 4e-9
 _NUFFT_CALL = {1: 20e-6, 2: 40e-6, 3: 150e-6}
 _NUFFT_FREQUENCY = {1: 8e-9, 2: 8e-9, 3: 26e-9}
@@ -106,32 +109,53 @@ def of_slab(chunks: Chunks, cube: Cube, slab: Slab) -> NDArray[np.complex128]:
 
 
 def by_products(chunks: Chunks, cube: Cube, slab: Slab) -> NDArray[np.complex128]:
-    """S of all realisations at a slab's frequencies, complex128[k, stop - start]."""
+    """S of all realisations at a slab's frequencies, complex128[k, stop - start].
+
+    A sum of products L(my) T(mx) over the points is a matrix product. In real numbers, T(mx) and T(-mx) share theirs.
+    """
     total: NDArray[np.complex128] | None = None
     for points in chunks():
         sets, dims, count = points.shape
         out = np.empty((sets, slab.rows * cube.row), np.complex128)
-        for member, rows in enumerate(points):
-            left = np.empty((slab.rows, count), np.complex128)
-            multiples(slab.row, cube.step, np.ascontiguousarray(rows[0]), left)
-            for axis in range(1, dims):
-                table = _both_signs(cube, np.ascontiguousarray(rows[axis]))
-                if axis == dims - 1:
-                    np.matmul(left, table.T, out=out[member].reshape(left.shape[0], cube.side))
-                else:
-                    left = (left[:, None, :] * table[None, :, :]).reshape(-1, count)
+        for member, coordinates in enumerate(points):
+            rows = np.ascontiguousarray(coordinates)
+            left = np.empty((2, slab.rows, count))
+            multiples(slab.row, cube.step, rows[0], left[0], left[1])
             if dims == 1:
-                left.sum(axis=1, out=out[member])
+                out[member] = left[0].sum(axis=1) + 1j * left[1].sum(axis=1)
+                continue
+            for axis in range(1, dims - 1):
+                left = _outer(left, _table(cube, rows[axis]))
+            products = _product(left.reshape(-1, count), _table(cube, rows[dims - 1]).reshape(-1, count))
+            both_signs(products.reshape(2, left.shape[1], -1), out[member].reshape(left.shape[1], cube.side))
         total = out if total is None else total + out
     assert total is not None
     return total[:, total.shape[1] - (slab.stop - slab.start) :]
 
 
-def _both_signs(cube: Cube, x: NDArray[np.float64]) -> NDArray[np.complex128]:
-    table = np.empty((cube.side, x.size), np.complex128)
-    multiples(0, cube.step, x, table[cube.reach :])
-    np.conjugate(table[: cube.reach : -1], out=table[: cube.reach])
+def _table(cube: Cube, x: NDArray[np.float64]) -> NDArray[np.float64]:
+    """exp(-2 pi i m x) for m from 0 on, float64[2, F + 1, K]: real parts, imaginary parts."""
+    table = np.empty((2, cube.reach + 1, x.size))
+    multiples(0, cube.step, x, table[0], table[1])
     return table
+
+
+def _outer(left: NDArray[np.float64], table: NDArray[np.float64]) -> NDArray[np.float64]:
+    """All products of rows of the one and of both signs of the other, float64[2, rows * side, K]."""
+    real = np.concatenate([table[0, :0:-1], table[0]])
+    imaginary = np.concatenate([-table[1, :0:-1], table[1]])
+    a, b = left[0][:, None], left[1][:, None]
+    count = real.shape[1]
+    return np.stack([(a * real - b * imaginary).reshape(-1, count), (a * imaginary + b * real).reshape(-1, count)])
+
+
+def _product(left: NDArray[np.float64], right: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return left @ right.T, taken in parts so small that BLAS takes no threads of its own: the realisations have them already."""
+    out = np.empty((left.shape[0], right.shape[0]))
+    rows = max(1, _UNTHREADED // right.size)
+    for start in range(0, left.shape[0], rows):
+        np.matmul(left[start : start + rows], right.T, out=out[start : start + rows])
+    return out
 
 
 def _nufft(

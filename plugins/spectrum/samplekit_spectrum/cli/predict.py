@@ -1,0 +1,175 @@
+"""``samplekit predict``: the variance that spectra predict, beside the measured one."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from samplekit.cli.completion import complete_sampler, complete_scene
+from samplekit.cli.options import JsonOption, SeedOption  # noqa: TC001 (typer reads annotations)
+
+if TYPE_CHECKING:
+    from samplekit_spectrum.measurement import Measurement
+    from samplekit_spectrum.prediction import Comparison
+
+SCHEMA = "samplekit.prediction/1"
+
+
+def predict(
+    sampler: Annotated[
+        str,
+        typer.Option(
+            "--sampler",
+            "-s",
+            metavar="NAME[:OPTION=VALUE,...][+RANDOMIZER]",
+            help="The sampler, such as jittered or sobol+owen.",
+            autocompletion=complete_sampler,
+        ),
+    ],
+    scene: Annotated[
+        str,
+        typer.Option(
+            "--scene", metavar="NAME[:OPTION=VALUE,...]", help="What is integrated.", autocompletion=complete_scene
+        ),
+    ],
+    count: Annotated[
+        str, typer.Option("--count", "-n", metavar="LIST", help="Samples: 1,4,16 or 2^0..2^12 or 4^1..4^5.")
+    ],
+    trials: Annotated[
+        str, typer.Option("--trials", metavar="T", help="Estimates that the measured variance is of.")
+    ] = "40000",
+    realizations: Annotated[
+        str,
+        typer.Option("--realizations", "-r", metavar="R", help="Sets in the expected spectrum; by default enough."),
+    ] = "",
+    max_frequency: Annotated[
+        str, typer.Option("--max-frequency", "-f", metavar="F", help="Largest frequency; by default about 4 sqrt N.")
+    ] = "",
+    seed: SeedOption = "0",
+    threads: Annotated[
+        str, typer.Option("--threads", "-t", metavar="T", help="Threads; by default one for each processor.")
+    ] = "",
+    json: JsonOption = False,
+) -> int:
+    """Predict the variance of estimates from the spectra of sampler and scene, and measure it.
+
+    Of the sampler followed by a random shift: for no other is the prediction exact. The native variance, without the
+    shift, stands beside it.
+
+    Example: samplekit predict --sampler jittered --scene disk --count 4^2..4^5
+    """
+    from samplekit.cli.notices import announce_compilation
+
+    announce_compilation()
+    from samplekit.cli.progress import Progress
+    from samplekit.integration.configured import configured_scene
+    from samplekit.parsing import parse_count, parse_counts, parse_seed
+    from samplekit.sampling.configured import configured_sampler
+    from samplekit_spectrum.homogenized import is_homogeneous
+    from samplekit_spectrum.integrands import integrand_of
+    from samplekit_spectrum.prediction import predict as predict_one
+
+    counts = parse_counts(count, "count")
+    chosen, integrated = configured_sampler(sampler).fresh(), configured_scene(scene)
+    for number in counts:
+        # Before anything is computed: the last of a list would otherwise fail after hours.
+        chosen.check(number, integrated.dims)
+    settings: dict[str, Any] = {
+        "trials": parse_count(trials, "trials"),
+        "realizations": parse_count(realizations, "realizations") if realizations else None,
+        "max_frequency": parse_count(max_frequency, "max-frequency") if max_frequency else None,
+        "seed": parse_seed(seed),
+        "threads": parse_count(threads, "threads") if threads else None,
+    }
+    integrand = integrand_of(integrated)
+    with_native = not is_homogeneous(chosen)
+    if not json:
+        for line in _heading(chosen.text, integrated.text, settings, integrand, with_native):
+            typer.echo(line)
+    rows = []
+    for number in counts:
+        bars: dict[str, Progress] = {}
+
+        def show(what: str, done: int, total: int, bars: dict[str, Progress] = bars) -> None:
+            if what not in bars:
+                for bar in bars.values():
+                    bar.__exit__()
+                bars[what] = Progress(what)
+            bars[what](done, total)
+
+        try:
+            row = predict_one(chosen, integrated, number, progress=show, **settings)
+        finally:
+            for bar in bars.values():
+                bar.__exit__()
+        rows.append(row)
+        if not json:
+            typer.echo(_line(row, with_native))
+    if json:
+        from json import dumps
+
+        report = {
+            "schema": SCHEMA,
+            "sampler": chosen.text,
+            "scene": integrated.text,
+            "homogenized": True,
+            "confidence": 0.99,
+            "seed": settings["seed"],
+            "integrand": {
+                "mean": integrand.mean,
+                "variance": integrand.variance,
+                "approximate": integrand.approximate,
+                "aliasing": integrand.aliasing,
+            },
+            "rows": [_json(row) for row in rows],
+        }
+        typer.echo(dumps(report, allow_nan=False))
+    return 0
+
+
+def _heading(sampler: str, scene: str, settings: dict[str, Any], integrand: Any, with_native: bool) -> list[str]:
+    lines = [f"{scene}, {sampler} with a random shift, {settings['trials']} trials, seed {settings['seed']}"]
+    if integrand.approximate:
+        lines.append(f"  the scene's spectrum is approximate: its sum is off by about {integrand.aliasing:.2g}")
+    head = f"  {'count':>8}{'predicted':>12}{'+-':>9}{'tail':>9}{'at most':>9}{'measured':>12}{'ratio':>8}{'99 %':>18}"
+    lines.append(head + (f"{'native':>12}" if with_native else "") + "  verdict")
+    return lines
+
+
+def _line(row: Comparison, with_native: bool) -> str:
+    predicted, measured = row.predicted, row.measured
+    whole = predicted.variance or 1.0
+    interval = f"{row.ratio_low:.4f} to {row.ratio_high:.4f}"
+    line = (
+        f"  {row.count:>8}{predicted.variance:>12.4e}{predicted.standard_error / whole:>9.2%}"
+        f"{predicted.tail / whole:>9.2%}{predicted.tail_bound / whole:>9.2%}{measured.variance:>12.4e}"
+        f"{row.ratio:>8.4f}{interval:>18}"
+    )
+    native = f"{row.native.variance:>12.4e}" if row.native else ""
+    return line + (native if with_native else "") + f"  {row.verdict}"
+
+
+def _json(row: Comparison) -> dict[str, Any]:
+    from dataclasses import asdict
+
+    from samplekit_spectrum.tables import finite
+
+    return {
+        "count": row.count,
+        "predicted": asdict(row.predicted),
+        "measured": _measurement(row.measured),
+        "native": _measurement(row.native) if row.native else None,
+        "ratio": finite(row.ratio),
+        "ratio_low": finite(row.ratio_low),
+        "ratio_high": finite(row.ratio_high),
+        "verdict": row.verdict,
+    }
+
+
+def _measurement(measured: Measurement) -> dict[str, Any]:
+    from dataclasses import asdict
+
+    from samplekit_spectrum.tables import finite
+
+    return {name: value if isinstance(value, int) else finite(value) for name, value in asdict(measured).items()}

@@ -1,0 +1,47 @@
+"""What is known of an integrand's power spectrum."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Coefficients = Callable[[NDArray[Any], NDArray[Any]], NDArray[np.float64]]
+
+
+@dataclass(frozen=True, eq=False)
+class Integrand:
+    """An integrand over the unit square.
+
+    Attributes
+    ----------
+    name
+        The scene's text.
+    mean, energy
+        The integrals of f and of f^2: with Parseval's identity the variance of one random sample is energy - mean^2.
+    power
+        |f(m)|^2 for integer frequencies (mx, my) other than 0, arrays that broadcast.
+    reach
+        Largest |m|_inf at which ``power`` may be asked for; None: any.
+    axes_only
+        f(m) is 0 wherever both components are not.
+    approximate
+        The closed form is not known: ``aliasing`` bounds (by halving the resolution) what the sum of ``power`` is off.
+    """
+
+    name: str
+    mean: float
+    energy: float
+    power: Coefficients
+    reach: int | None = None
+    axes_only: bool = False
+    approximate: bool = False
+    aliasing: float = 0.0
+
+    @property
+    def variance(self) -> float:
+        """Of a single random sample: the sum of |f(m)|^2 over all m other than 0."""
+        return max(self.energy - self.mean**2, 0.0)

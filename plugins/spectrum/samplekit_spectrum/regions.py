@@ -1,0 +1,106 @@
+"""Where the spectra are multiplied: a square of frequencies about DC, and the axes far beyond it.
+
+Latin hypercubes and nets have their dark axes out to frequency N, and integrands that jump at the edges of the unit
+square, or along them, have all their slow decay there: the axes cost one dimension and are taken further.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from samplekit_spectrum.expectation import View
+from samplekit_spectrum.frequencies import Cube
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from samplekit_spectrum.integrands.integrand import Integrand
+
+LARGEST_SQUARE, LARGEST_SQUARE_OF_FIXED = 512, 1024
+LARGEST_AXIS = 2**16
+_ROWS = 2**21
+
+
+@dataclass(frozen=True, eq=False)
+class Region:
+    """A view with its weights: twice |f(m)|^2 for each pair m, -m, and 0 where another region has them.
+
+    Attributes
+    ----------
+    view
+        What is transformed.
+    weights
+        float64[half].
+    inner
+        Largest |m|_inf that another region covers.
+    """
+
+    view: View
+    weights: NDArray[np.float64]
+    inner: int
+
+    @property
+    def cube(self) -> Cube:
+        """The frequencies."""
+        assert isinstance(self.view.frequencies, Cube)
+        return self.view.frequencies
+
+    @property
+    def energy(self) -> float:
+        """The sum of |f(m)|^2 over the region."""
+        return float(self.weights.sum())
+
+
+def square(integrand: Integrand, reach: int) -> Region:
+    """All frequencies with |m|_inf <= reach."""
+    cube = Cube(2, reach)
+    weights = np.zeros(cube.half)
+    for start in range(1, cube.half, _ROWS):
+        stop = min(start + _ROWS, cube.half)
+        vectors = cube.vectors(start, stop)
+        weights[start:stop] = 2.0 * integrand.power(vectors[:, 0], vectors[:, 1])
+    return Region(View((0, 1), cube, weights), weights, 0)
+
+
+def axis(integrand: Integrand, dimension: int, inner: int, reach: int) -> Region:
+    """The frequencies on an axis with inner < |m| <= reach."""
+    cube = Cube(1, reach)
+    m = np.arange(inner + 1, reach + 1)
+    zero = np.zeros_like(m)
+    weights = np.zeros(cube.half)
+    weights[inner + 1 :] = 2.0 * (integrand.power(m, zero) if dimension == 0 else integrand.power(zero, m))
+    return Region(View((dimension,), cube, weights), weights, inner)
+
+
+def regions(integrand: Integrand, reach: int, axis_reach: int) -> list[Region]:
+    """The square and both axes, without those where the integrand has nothing."""
+    most = integrand.reach
+    reach, axis_reach = (min(value, most) if most else value for value in (reach, axis_reach))
+    found = [] if integrand.axes_only else [square(integrand, reach)]
+    inner = 0 if integrand.axes_only else reach
+    if axis_reach > inner:
+        found += [axis(integrand, dimension, inner, axis_reach) for dimension in (0, 1)]
+    return [region for region in found if region.energy > 1e-14 * integrand.variance]
+
+
+def reaches(count: int, *, fixed: bool) -> tuple[int, int]:
+    """How far the square and the axes go: 4 sqrt N, where most spectra are flat, and 16 N, where dark axes end."""
+    most = LARGEST_SQUARE_OF_FIXED if fixed else LARGEST_SQUARE
+    reach = most if fixed else min(max(2 ** math.ceil(math.log2(4.0 * math.sqrt(count))), 128), most)
+    return reach, min(max(16 * count, 2**12), LARGEST_AXIS)
+
+
+def outer_power(region: Region, mean: NDArray[np.float64]) -> tuple[float, float]:
+    """In the outer half of a region the power weighted with the integrand's, and the largest power."""
+    cube = region.cube
+    vectors = np.abs(cube.vectors(0, cube.half)).max(axis=1)
+    outer = vectors > max(cube.reach // 2, region.inner)
+    weights = region.weights[outer]
+    total = float(weights.sum())
+    if total == 0.0:
+        return float("nan"), float(mean[outer].max())
+    return float((weights * mean[outer]).sum()) / total, float(mean[outer].max())
