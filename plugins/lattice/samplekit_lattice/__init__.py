@@ -1,6 +1,6 @@
 """Lattices: the declarations. Nothing here imports NumPy; the samplers are imported when they are used."""
 
-from samplekit import SamplerSpec, hookimpl
+from samplekit import LatinStrata, MinimumDistance, Net, Option, SamplerSpec, hookimpl
 
 
 @hookimpl
@@ -12,17 +12,36 @@ def samplekit_samplers() -> list[SamplerSpec]:
             "samplekit_lattice.r2:R2",
             "golden-ratio sequence, randomly shifted",
             reference="Roberts 2018, after Kronecker and Weyl",
-            dimensions=(1, 16),
             progressive="every-count",
             largest_index=2**32 - 1,
         ),
         SamplerSpec(
             "rank1",
             "samplekit_lattice.rank1:Rank1",
-            "rank-1 lattice, randomly shifted",
-            reference="Cools, Kuo, Nuyens 2006",
-            dimensions=(1, 16),
-            counts="powers-of-2",
+            "rank-1 lattice sequence, randomly shifted",
+            reference="Cools, Kuo, Nuyens 2006; Hickernell, Kritzer, Kuo, Nuyens 2012",
+            options=(
+                Option(
+                    "vector",
+                    "ckn",
+                    "generating vector: ckn for all pairs of 250 dimensions, hkkn for smooth periodic integrands in 10",
+                    choices=("ckn", "hkkn"),
+                ),
+            ),
+            dimensions=(1, 250),
+            progressive="powers-of-2",
             largest_index=2**20 - 1,
+            # All components are odd, so that 2^m points are one in each interval of 2^-m, in any one dimension.
+            promises=(Net(dims=(0,)), Net(dims=(1,))),
+        ),
+        SamplerSpec(
+            "fibonacci",
+            "samplekit_lattice.fibonacci:Fibonacci",
+            "Fibonacci's lattice, randomly shifted",
+            reference="Zaremba 1966",
+            dimensions=(2, 2),
+            counts="fibonacci",
+            # Three points are 0.76 apart, two or more than three at least 0.86.
+            promises=(LatinStrata(), MinimumDistance(0.75)),
         ),
     ]

@@ -4,16 +4,27 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
+from samplekit.numerics.kernel import kernel
+from samplekit.sampling.hashing import unit
 
 if TYPE_CHECKING:
+    import numpy as np
     from numpy.typing import NDArray
 
     from samplekit import Realizations
 
 
-def shifted(fractions: NDArray[np.uint64], realizations: Realizations) -> NDArray[np.float64]:
-    """``fractions`` uint64[D, n] plus a random shift for each realisation and dimension: float64[R, D, n] in [0, 1)."""
-    shifts = realizations.random_words(fractions.shape[0])
-    moved = fractions + shifts[:, :, None]
-    return (moved >> np.uint64(11)).astype(np.float64) * 2.0**-53
+@kernel("void(float64[:,:,::1], uint64[:,::1], uint64[:,::1])")
+def _add_shifts(out: NDArray[np.float64], fractions: NDArray[np.uint64], shifts: NDArray[np.uint64]) -> None:
+    realizations, dims, points = out.shape
+    for r in range(realizations):
+        for d in range(dims):
+            row = out[r, d]
+            shift = shifts[r, d]
+            for i in range(points):
+                row[i] = unit(fractions[d, i] + shift)
+
+
+def write_shifted(out: NDArray[np.float64], fractions: NDArray[np.uint64], realizations: Realizations) -> None:
+    """Write ``fractions`` uint64[D, n] plus a random shift for each realisation and dimension: float64[R, D, n]."""
+    _add_shifts(out, fractions, realizations.random_words(fractions.shape[0]))

@@ -1,53 +1,65 @@
-"""A rank-1 lattice: point i is i z / N, modulo 1, for a generating vector z.
+"""Rank-1 lattices that grow: point i is phi_2(i) z, modulo 1, for a generating vector z and the radical inverse phi_2.
 
-The vector is that of Cools, Kuo, Nuyens 2006, "Constructing embedded lattice rules for multivariate integration",
-order 2: good for every N = 2^m up to 2^20 and in all two-dimensional projections.
+Hickernell, Hong, L'Ecuyer, Lemieux 2000, "Extensible lattice sequences for quasi-Monte Carlo quadrature": the first
+N = 2^m points are the lattice k z / N, k = 0 to N - 1, in another order, and every later block of N points is that
+lattice shifted. The vectors, with where they come from, are in the folder ``vectors``.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
+from functools import cache
+from importlib import resources
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from samplekit import Sampler
-from samplekit_lattice.fixed_point import shifted
+from samplekit.numerics.kernel import kernel, reverse_bits32
+from samplekit_lattice.fixed_point import write_shifted
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from samplekit import Realizations
+    from samplekit import Realizations, SamplerSpec
 
-GENERATING_VECTOR = np.array(
-    [
-        1,
-        182667,
-        469891,
-        498753,
-        110745,
-        446247,
-        250185,
-        118627,
-        245333,
-        283199,
-        408519,
-        391023,
-        246327,
-        126539,
-        399185,
-        461527,
-    ],
-    np.uint64,
-)
+_U64 = np.uint64
+_U32 = np.uint32
+
+
+@cache
+def generating_vector(name: str) -> NDArray[np.uint64]:
+    """The vector of this name, uint64[D]; not to be written to."""
+    text = resources.files("samplekit_lattice").joinpath(f"vectors/{name}.txt").read_text(encoding="utf-8")
+    numbers = [int(number) for line in text.splitlines() if not line.startswith("#") for number in line.split()]
+    vector = np.array(numbers, np.uint64)
+    vector.flags.writeable = False
+    return vector
+
+
+@kernel("void(uint64[:,::1], uint64[::1], int64)")
+def _write_multiples(out: NDArray[np.uint64], vector: NDArray[np.uint64], start: int) -> None:
+    """Write phi_2(i) z as 64-bit fractions: the product wraps modulo 1."""
+    dims, points = out.shape
+    for d in range(dims):
+        row = out[d]
+        z = vector[d]
+        for i in range(points):
+            row[i] = (_U64(reverse_bits32(_U32(start + i))) << _U64(32)) * z
 
 
 class Rank1(Sampler):
-    """A lattice of N = 2^m points with the realisation's shift."""
+    """A lattice sequence with the realisation's shift."""
+
+    def __init__(self, vector: str = "ckn") -> None:
+        self.vector = generating_vector(vector)
+
+    def refine(self, spec: SamplerSpec) -> SamplerSpec:
+        """As many dimensions as the vector has."""
+        return replace(spec, dimensions=(1, self.vector.size))
 
     def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`samplekit.Sampler.fill`."""
-        _, dims, points = out.shape
-        index = np.arange(start, start + points, dtype=np.uint64)
-        # N divides 2^64: in 64-bit fractions i z / N modulo 1 is a product that wraps.
-        step = GENERATING_VECTOR[:dims] * np.uint64(2**64 // count % 2**64)
-        out[:] = shifted(step[:, None] * index, realizations)
+        fractions = np.empty(out.shape[1:], np.uint64)
+        _write_multiples(fractions, self.vector[: out.shape[1]].copy(), start)
+        write_shifted(out, fractions, realizations)

@@ -1,0 +1,65 @@
+"""The Fibonacci lattice in 2D: N = F(k) points (i, i F(k-1)) / N, modulo 1.
+
+Zaremba 1966, "Good lattice points, discrepancy, and numerical integration": F(k) / F(k-1) are the fractions that tend
+to the golden ratio, the number that fractions approximate worst, and so the discrepancy is of order log N / N. A random
+shift is a number of whole steps of 1/N and a place within a step that all points share: the lattice stays exact.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from samplekit import Sampler, UsageError
+from samplekit.counts import fibonacci_numbers
+from samplekit.numerics.kernel import kernel
+from samplekit.sampling.hashing import below, dimension_key, second_key
+from samplekit.sampling.stratification import offset_bits, place_in_cell
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from samplekit import Realizations
+
+_U64 = np.uint64
+
+
+@kernel("void(float64[:,:,::1], uint64[::1], uint64[::1], int64, uint64)")
+def _fill(
+    out: NDArray[np.float64],
+    keys: NDArray[np.uint64],
+    generators: NDArray[np.uint64],
+    count: int,
+    start: np.uint64,
+) -> None:
+    realizations, dims, points = out.shape
+    modulus = _U64(count)
+    bits = offset_bits(count)
+    shift, step, width = _U64(64 - bits), 2.0 ** (-bits), 1.0 / count
+    for d in range(dims):
+        generator = generators[d]
+        for r in range(realizations):
+            key = dimension_key(keys[r], d)
+            within = second_key(key)
+            # Below 2^64, for the count is at most 2^32.
+            numerator = (start * generator + below(key, modulus)) % modulus
+            row = out[r, d]
+            for i in range(points):
+                row[i] = place_in_cell(np.float64(numerator), within, shift, step, width)
+                numerator += generator
+                if numerator >= modulus:
+                    numerator -= modulus
+
+
+class Fibonacci(Sampler):
+    """Fibonacci's lattice with the realisation's shift."""
+
+    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+        """Write points of the sets; see :meth:`samplekit.Sampler.fill`."""
+        numbers = fibonacci_numbers(count)
+        if count not in numbers:
+            raise UsageError(f"there is no Fibonacci lattice of {count} points")
+        # One point needs no generator, and 1 would not be below the count.
+        generators = (1, numbers[-3]) if count > 1 else (0, 0)
+        _fill(out, realizations.keys, np.array(generators, np.uint64), count, _U64(start))
