@@ -38,12 +38,13 @@ def points(
             "--output",
             "-o",
             metavar="FILE",
-            help="A file that ends in .csv, .npy, .svg or .png; without it CSV goes to standard output.",
+            help="A file that ends in .csv, .plain.csv (coordinates alone, as Samplin' Safari reads), .npy, .dat or"
+            " .bin (UTK's), .svg or .png; without it CSV goes to standard output.",
         ),
     ] = "",
     json: JsonOption = False,
 ) -> int:
-    """Print the points of a sampler, or write them as CSV, as a NumPy array, or as a picture.
+    """Print the points of a sampler, or write them as text, as an array, or as a picture.
 
     A picture shows the grids in which the sampler promises as many points in each cell as in any other.
 

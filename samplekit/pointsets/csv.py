@@ -1,4 +1,8 @@
-"""Points as comma-separated text that reads back bit for bit."""
+"""Points as comma-separated text that reads back bit for bit: with a header and indices, or the coordinates alone.
+
+The coordinates alone are what Samplin' Safari reads: every line is a point, the first line says how many dimensions
+there are (src/sampler/CSVFile.cpp in wkjarosz/SamplinSafari, which would take a header for a point).
+"""
 
 from __future__ import annotations
 
@@ -39,3 +43,16 @@ def csv_text(
             rows = points[r, start : start + _ROWS].tolist()
             yield "".join(f"{r},{index},{','.join(map(repr, row))}\n" for index, row in enumerate(rows, start))
             progress(r * count + start + len(rows), realizations * count)
+
+
+def plain_csv_text(
+    points: NDArray[np.float64], progress: Callable[[int, int], None] = lambda _done, _total: None
+) -> Iterator[str]:
+    """Give one set float64[N, D] as text in pieces: a line a point, and nothing but its coordinates.
+
+    ``progress`` is called with the numbers of points done and to do.
+    """
+    for start in range(0, len(points), _ROWS):
+        rows = points[start : start + _ROWS].tolist()
+        yield "".join(f"{','.join(map(repr, row))}\n" for row in rows)
+        progress(start + len(rows), len(points))

@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from samplekit.images.files import Writer
     from samplekit.specs import SamplerSpec
 
-ENDINGS = (".csv", ".npy", ".svg", ".png")
+PLAIN = ".plain.csv"
+ENDINGS = (".csv", PLAIN, ".npy", ".dat", ".bin", ".svg", ".png")
 PICTURES = (".svg", ".png")
 
 
@@ -28,18 +29,22 @@ def check_path(path: Path, realizations: int, dims: int) -> str:
     Raises
     ------
     UsageError
-        An ending that is none of the four; a picture of several realisations, or of more than 16 dimensions.
+        An ending that is none of these; several realisations where there is room for one, or a picture of more than 16
+        dimensions.
     """
     ending = path.suffix.lower()
+    if path.name.lower().endswith(PLAIN) and len(path.name) > len(PLAIN):
+        ending = PLAIN
     if ending not in ENDINGS:
         raise UsageError(
             f"cannot write {shown(path)}: expected a name that ends in {', '.join(ENDINGS[:-1])} or {ENDINGS[-1]}"
         )
+    if realizations != 1 and ending in (PLAIN, *PICTURES):
+        what = f"{PLAIN} holds" if ending == PLAIN else "a picture shows"
+        raise UsageError(f"{what} one realisation, not {realizations}: write .csv, .npy, .dat or .bin, or ask for one")
     if ending in PICTURES:
         from samplekit.pointsets.picture import check_dims
 
-        if realizations != 1:
-            raise UsageError(f"a picture shows one realisation, not {realizations}: write .csv or .npy, or ask for one")
         check_dims(dims)
     return ending
 
@@ -58,15 +63,17 @@ def write_points(
     Parameters
     ----------
     points
-        float64[R, N, D], each of R, N and D at least 1; pictures (``.svg``, ``.png``) take R = 1 and values in [0, 1].
+        float64[R, N, D], each of R, N and D at least 1; pictures (``.svg``, ``.png``) take R = 1 and values in [0, 1],
+        ``.plain.csv`` takes R = 1.
     path
-        Ends in ``.csv``, ``.npy``, ``.svg`` or ``.png``, which chooses the format.
+        Its ending chooses the format: ``.csv``, ``.plain.csv`` (coordinates alone, for Samplin' Safari and most
+        others), ``.npy``, ``.dat`` and ``.bin`` (UTK's text and binary), ``.svg``, ``.png``.
     spec
         The sampler's declaration: pictures show the grids that it promises.
     title
         Stands above a picture, see `title_of`.
     metadata
-        How the points were made: anything that JSON holds, stored in pictures. CSV and NPY hold the numbers alone.
+        How the points were made: anything that JSON holds, stored in pictures. The others hold the numbers alone.
     progress
         Called with the numbers of points done and to do, where it may take long.
 
@@ -103,12 +110,20 @@ def _writer(
         from samplekit.pointsets.npy import npy_writer
 
         return npy_writer(points)
+    if ending == ".bin":
+        from samplekit.pointsets.utk_binary import utk_binary_writer
+
+        return utk_binary_writer(points)
     from samplekit.pointsets.verified import text_writer
 
-    if ending == ".csv":
-        from samplekit.pointsets.csv import csv_text
+    if ending in (".csv", PLAIN):
+        from samplekit.pointsets.csv import csv_text, plain_csv_text
 
-        return text_writer(csv_text(points, progress))
+        return text_writer(csv_text(points, progress) if ending == ".csv" else plain_csv_text(points[0], progress))
+    if ending == ".dat":
+        from samplekit.pointsets.utk_text import utk_text
+
+        return text_writer(utk_text(points, progress))
     from samplekit.pointsets.picture import make_picture
 
     picture = make_picture(points[0], spec.promises, title)

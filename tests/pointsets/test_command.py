@@ -71,7 +71,7 @@ def test_a_picture_says_how_to_make_it_again(tmp_path):
         (["--count", "4", "--realizations", "0"], "realizations 0"),
         (["--count", "4", "--seed", "-1"], "seed -1"),
         (["--count", "97"], "nearest"),
-        (["--count", "96", "--output", "a.jpg"], ".csv, .npy, .svg or .png"),
+        (["--count", "96", "--output", "a.jpg"], ".dat, .bin, .svg or .png"),
         (["--count", "96", "--output", "a.svg", "--realizations", "2"], "one realisation"),
         (["--count", "1", "--output", "a.svg", "--dims", "17"], "at most 16"),
     ],

@@ -19,7 +19,7 @@ def write(path, points=POINTS, metadata=METADATA):
     return path.read_bytes()
 
 
-@pytest.mark.parametrize("ending", ["csv", "npy", "svg", "png"])
+@pytest.mark.parametrize("ending", ["csv", "plain.csv", "npy", "dat", "bin", "svg", "png"])
 def test_the_same_points_give_the_same_bytes_and_nothing_else_is_left(tmp_path, ending):
     assert write(tmp_path / f"a.{ending}") == write(tmp_path / f"b.{ending}")
     assert sorted(path.name for path in tmp_path.iterdir()) == [f"a.{ending}", f"b.{ending}"]
@@ -47,8 +47,8 @@ def test_an_ending_in_capitals_is_the_same_format(tmp_path):
 
 
 @pytest.mark.parametrize("name", ["points.jpg", "points", "points.png.gz", ".csv"])
-def test_an_unknown_ending_names_the_four(tmp_path, name):
-    with pytest.raises(UsageError, match=r"\.csv, \.npy, \.svg or \.png"):
+def test_an_unknown_ending_names_those_there_are(tmp_path, name):
+    with pytest.raises(UsageError, match=r"\.csv, \.plain\.csv, \.npy, \.dat, \.bin, \.svg or \.png"):
         write(tmp_path / name)
     assert not list(tmp_path.iterdir())
 
