@@ -262,23 +262,23 @@ def test_a_default_has_a_type_that_options_can_have(default):
 
 
 def test_options_not_given_keep_their_defaults():
-    spec = SceneSpec("toy", "toys:Toy", "", options=(RADIUS, CELLS, FLAG))
+    spec = sampler(options=(RADIUS, CELLS, FLAG))
     assert spec.parse_options({}) == {"radius": 0.3, "cells": 8, "flag": False}
     assert spec.parse_options({"cells": "4"}) == {"radius": 0.3, "cells": 4, "flag": False}
 
 
 def test_a_wrong_option_names_those_there_are():
-    spec = SceneSpec("toy", "toys:Toy", "", options=(RADIUS, CELLS))
+    spec = sampler(options=(RADIUS, CELLS))
     with pytest.raises(UsageError, match="toy has no option 'cell': it takes radius, cells"):
         spec.parse_options({"cell": "4"})
     with pytest.raises(UsageError, match="it takes none"):
-        SceneSpec("toy", "toys:Toy", "").parse_options({"cell": "4"})
+        sampler().parse_options({"cell": "4"})
     with pytest.raises(UsageError, match=r"^toy: option cells=0: expected an integer"):
         spec.parse_options({"cells": "0"})
 
 
 def test_a_required_option_that_is_missing_is_asked_for():
-    spec = SceneSpec("toy", "toys:Toy", "", options=(Option("file", "", "where points are", required=True),))
+    spec = sampler(options=(Option("file", "", "where points are", required=True),))
     with pytest.raises(UsageError, match=r"toy needs the option file \(where points are\)"):
         spec.parse_options({})
     assert spec.parse_options({"file": "points.csv"}) == {"file": "points.csv"}
