@@ -100,11 +100,11 @@ def expectations(
         The sampler failed, or there is too little memory.
     """
     source.sampler.check(source.count, source.dims)
-    rings = [view.frequencies.rings() for view in views]
     blocks = _blocks(first, realizations)
     workers = min(threads or os.cpu_count() or 1, len(blocks))
     workers = _affordable(workers, source, views)
     source.sampler.prepare(source.count, source.dims)
+    rings = [view.frequencies.rings() for view in views]
     work = _Work(threading.Event(), threading.Lock())
     totals = [Moments(ring, view.weights) for ring, view in zip(rings, views, strict=True)]
     waiting = iter(enumerate(blocks))

@@ -150,7 +150,7 @@ def _outer(left: NDArray[np.float64], table: NDArray[np.float64]) -> NDArray[np.
 
 
 def _product(left: NDArray[np.float64], right: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return left @ right.T, taken in parts so small that BLAS takes no threads of its own: the realisations have them already."""
+    """Return left @ right.T, in parts so small that BLAS takes no threads: the realisations have them already."""
     out = np.empty((left.shape[0], right.shape[0]))
     rows = max(1, _UNTHREADED // right.size)
     for start in range(0, left.shape[0], rows):

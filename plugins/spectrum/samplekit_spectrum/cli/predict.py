@@ -37,8 +37,8 @@ def predict(
         str, typer.Option("--count", "-n", metavar="LIST", help="Samples: 1,4,16 or 2^0..2^12 or 4^1..4^5.")
     ],
     trials: Annotated[
-        str, typer.Option("--trials", metavar="T", help="Estimates that the measured variance is of.")
-    ] = "40000",
+        str, typer.Option("--trials", metavar="T", help="Estimates that are measured; by default 40000 or more.")
+    ] = "",
     realizations: Annotated[
         str,
         typer.Option("--realizations", "-r", metavar="R", help="Sets in the expected spectrum; by default enough."),
@@ -76,7 +76,7 @@ def predict(
         # Before anything is computed: the last of a list would otherwise fail after hours.
         chosen.check(number, integrated.dims)
     settings: dict[str, Any] = {
-        "trials": parse_count(trials, "trials"),
+        "trials": parse_count(trials, "trials") if trials else None,
         "realizations": parse_count(realizations, "realizations") if realizations else None,
         "max_frequency": parse_count(max_frequency, "max-frequency") if max_frequency else None,
         "seed": parse_seed(seed),
@@ -129,7 +129,7 @@ def predict(
 
 
 def _heading(sampler: str, scene: str, settings: dict[str, Any], integrand: Any, with_native: bool) -> list[str]:
-    lines = [f"{scene}, {sampler} with a random shift, {settings['trials']} trials, seed {settings['seed']}"]
+    lines = [f"{scene}, {sampler} with a random shift, seed {settings['seed']}"]
     if integrand.approximate:
         lines.append(f"  the scene's spectrum is approximate: its sum is off by about {integrand.aliasing:.2g}")
     head = f"  {'count':>8}{'predicted':>12}{'+-':>9}{'tail':>9}{'at most':>9}{'measured':>12}{'ratio':>8}{'99 %':>18}"

@@ -1,0 +1,103 @@
+"""Predicted against measured variance.
+
+Intervals of 99 %: a case fails by chance for one seed in a hundred; the seeds are fixed.
+"""
+
+import math
+
+import numpy as np
+import pytest
+from samplekit_spectrum import predict
+from samplekit_spectrum.measurement import summarize
+
+from samplekit.errors import UsageError
+
+
+@pytest.mark.parametrize("scene", ["disk", "gaussian", "step"])
+@pytest.mark.parametrize(
+    "sampler",
+    ["random", "jittered", "latin-hypercube", "multi-jittered", "correlated-multi-jittered", "sobol+owen"],
+)
+def test_the_ratio_is_1_within_its_interval(sampler, scene):
+    row = predict(sampler, scene, 64, trials=6000, realizations=600, native=False, seed=1)
+    assert row.verdict == "agrees"
+    assert 0.85 < row.ratio_low <= 1.0 <= row.ratio_high < 1.15
+
+
+@pytest.mark.parametrize("scene", ["disk", "bilinear", "checker:cells=3", "step:angle=30"])
+def test_sets_of_one_power_need_one_spectrum(scene):
+    row = predict("halton+shift", scene, 100, trials=6000, seed=2)
+    assert row.predicted.realizations == 1
+    assert row.predicted.standard_error == 0.0
+    assert row.predicted.bound == "proven"
+    assert row.verdict.startswith("agrees")
+    assert 0.85 < row.ratio < 1.15
+
+
+def test_the_interval_is_narrower_than_5_percent_by_default():
+    row = predict("jittered", "gaussian", 16, native=False)
+    assert row.ratio_high - row.ratio_low < 0.05
+    assert row.verdict == "agrees"
+
+
+def test_jitter_meets_its_closed_form():
+    """With N E|S|^2 = 1 - sinc^2 sinc^2 the sum is known."""
+    row = predict("jittered", "disk", 256, trials=100, realizations=400, native=False)
+    from scipy.special import j1
+
+    m = np.arange(-1024, 1025)
+    rho = np.hypot(m[:, None], m)
+    rho[1024, 1024] = 1.0
+    coefficients = (0.3 * j1(2 * np.pi * 0.3 * rho) / rho) ** 2
+    product = np.outer(np.sinc(m / 16) ** 2, np.sinc(m / 16) ** 2)
+    terms = coefficients * (1.0 - product) / 256
+    terms[1024, 1024] = 0.0
+    exact = terms.sum() + 0.3 / (math.pi * 1024) * 0.85 / 256
+    assert row.predicted.variance == pytest.approx(exact, rel=4 * row.predicted.standard_error / exact + 1e-3)
+    assert 0 < row.predicted.tail <= row.predicted.tail_bound < 0.1 * row.predicted.variance
+
+
+def test_the_shifted_grid_is_summed_over_its_dual():
+    row = predict("regular", "disk", 256, trials=4000, native=True)
+    assert row.predicted.realizations == 1
+    assert row.verdict == "agrees"
+    assert row.native.variance < 1e-28
+    assert row.native.bias != 0.0
+
+
+def test_both_zero_is_exact():
+    row = predict("regular", "step", 64, trials=200)
+    assert row.verdict == "exact"
+    assert math.isnan(row.ratio)
+    assert predict("random", "checker:cells=1", 4, trials=50).verdict == "exact"
+
+
+def test_the_native_variance_is_another():
+    row = predict("jittered", "bilinear", 16, trials=3000, realizations=100)
+    assert row.native.variance < 0.3 * row.measured.variance
+    assert predict("random", "bilinear", 16, trials=100, realizations=20).native is None
+    assert predict("jittered+shift", "bilinear", 16, trials=100, realizations=20).native is None
+
+
+def test_a_wrong_prediction_is_told():
+    """Few frequencies leave a tail that is known to be large: nothing is claimed beyond its bound."""
+    row = predict("sobol+owen", "disk", 256, trials=3000, realizations=50, max_frequency=2, native=False)
+    assert row.predicted.tail > 0.1 * row.predicted.variance
+
+
+def test_wrong_use_is_one_clear_line():
+    for settings in ({"trials": 1}, {"realizations": 0}, {"max_frequency": 0}, {"seed": -1}):
+        with pytest.raises(UsageError):
+            predict("random", "disk", 4, **settings)
+    with pytest.raises(UsageError, match="nearest"):
+        predict("jittered", "disk", 7)
+
+
+def test_the_standard_error_of_a_variance():
+    """Of a normal sample sqrt(2 / T) of it; of a coin with equal sides nearly none."""
+    rng = np.random.default_rng(3)
+    normal = summarize(rng.normal(size=100_000), 0.0)
+    assert normal.standard_error == pytest.approx(math.sqrt(2 / 100_000) * normal.variance, rel=0.02)
+    coin = summarize(np.tile([0.0, 1.0], 5000), 0.5)
+    assert coin.standard_error < 1e-4 * coin.variance
+    assert coin.bias == 0.0
