@@ -57,6 +57,7 @@ def describe(rendering: Rendering) -> dict[str, Any]:
         "dimensions": dict(plan.scene.needs),
         "size": list(plan.size),
         "window": list(plan.window),
+        "reference": rendering.reference_kind,
         "metrics": finite(rendering.metrics),
     }
 

@@ -335,13 +335,29 @@ class RandomizerSpec(_Spec):
     unbiased: bool = field(default=True, kw_only=True)
 
 
+PIXEL_FILTER = Option("pixel-filter", "box", "mean over the pixel, or its centre alone", choices=("box", "center"))
+
+
 @dataclass(frozen=True)
 class SceneSpec(_Spec):
-    """What a scene declares: ``purposes`` are the blocks of dimensions that it may need, in their order."""
+    """What a scene declares: ``purposes`` are the blocks of dimensions that it may need, in their order.
+
+    Every scene with pixel dimensions also takes the option ``pixel-filter``, which it never sees itself.
+    """
 
     purposes: tuple[tuple[Literal["pixel", "lens", "time", "direction"], int], ...] = field(
         default=(("pixel", 2),), kw_only=True
     )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        _require(
+            all(isinstance(number, int) and number >= 1 for _, number in self.purposes),
+            f"{self.name}: purposes must be pairs of a name and a number of dimensions",
+        )
+        if any(purpose == "pixel" for purpose, _ in self.purposes) and PIXEL_FILTER not in self.options:
+            object.__setattr__(self, "options", (*self.options, PIXEL_FILTER))
+            super().__post_init__()
 
 
 @dataclass(frozen=True)

@@ -147,6 +147,7 @@ def _report(rendering: Rendering, files: list[Path], as_json: bool) -> None:
             "window": list(plan.window),
             "seed": plan.seed,
             **finite(rendering.metrics),
+            "reference": rendering.reference_kind,
             "seconds": rendering.seconds,
             "files": [str(file) for file in files],
         }

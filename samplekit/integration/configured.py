@@ -10,13 +10,14 @@ import numpy as np
 from samplekit.errors import SamplekitError, UsageError
 from samplekit.parsing import parse_choice
 from samplekit.registry import BUILTIN, Offer, registry
-from samplekit.specs import written
+from samplekit.specs import PIXEL_FILTER, written
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from numpy.typing import NDArray
 
+    from samplekit.integration.numerical import Reference
     from samplekit.integration.scene import Scene
     from samplekit.specs import SceneSpec
 
@@ -35,12 +36,15 @@ class ConfiguredScene:
         The declaration.
     needs
         Dimensions that the scene needs with these options, by purpose and in their order.
+    at_centre
+        Every pixel is seen at its centre (``pixel-filter=center``): there are no pixel dimensions.
     """
 
     def __init__(self, offer: Offer, options: Mapping[str, object]) -> None:
         spec: SceneSpec = offer.spec
         values = spec.parse_options(options)
         self.text = written(spec.name, options, values)
+        self.at_centre = values.pop(PIXEL_FILTER.name, PIXEL_FILTER.default) != PIXEL_FILTER.default
         self.spec = spec
         self.plugin = offer.plugin
         self._trusted = offer.plugin.name == BUILTIN
@@ -48,6 +52,10 @@ class ConfiguredScene:
         keywords = {name.replace("-", "_"): value for name, value in values.items()}
         self._scene: Scene = self._guarded("be set up", lambda: implementation(**keywords))
         self.needs: dict[str, int] = dict(self._guarded("tell its dimensions", self._scene.dimensions))
+        if self.at_centre:
+            self.needs.pop("pixel", None)
+        if not self.needs:
+            raise UsageError(f"{self.text} leaves no dimension to sample: its value at the centres is all there is")
 
     def __repr__(self) -> str:
         return f"<scene {self.text}>"
@@ -64,14 +72,32 @@ class ConfiguredScene:
 
     def sums(self, tile: NDArray[np.float64], boxes: NDArray[np.float64], out: NDArray[np.float64]) -> None:
         """Sum the integrand over the samples of each pixel; see :meth:`Scene.sums`."""
+        if self.at_centre:
+            tile, boxes = _centred(tile, boxes)
         if self._trusted:
             self._scene.sums(tile, boxes, out)
         else:
             self._guarded("be evaluated", lambda: self._scene.sums(tile, boxes, out))
 
     def exact(self, x_edges: NDArray[np.float64], y_edges: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The exact mean over each pixel; see :meth:`Scene.exact`."""
-        return self._image("give its reference", lambda: self._scene.exact(x_edges, y_edges), x_edges, y_edges)
+        """The mean over each pixel, as exact as there is; see :meth:`Scene.exact`."""
+        return self.reference(x_edges, y_edges).image
+
+    def reference(self, x_edges: NDArray[np.float64], y_edges: NDArray[np.float64]) -> Reference:
+        """The mean over each pixel, or at its centre, and how exact it is."""
+        from samplekit.integration.numerical import Reference, numerical_means, numerical_means_at
+        from samplekit.integration.scene import Scene
+
+        scene, what = self._scene, "give its reference"
+        if self.at_centre:
+            x, y = _centres(x_edges), _centres(y_edges)
+            if type(scene).exact_at is Scene.exact_at:
+                return self._guarded(what, lambda: numerical_means_at(scene, x, y))
+            return Reference(self._image(what, lambda: scene.exact_at(x, y), x_edges, y_edges))
+        if type(scene).exact is Scene.exact:
+            return self._guarded(what, lambda: numerical_means(scene, x_edges, y_edges))
+        image = self._image(what, lambda: scene.exact(x_edges, y_edges), x_edges, y_edges)
+        return Reference(image, scene.reference_error)
 
     def constant(self, x_edges: NDArray[np.float64], y_edges: NDArray[np.float64]) -> NDArray[np.float64]:
         """The value of each pixel that is provably constant, NaN elsewhere; see :meth:`Scene.constant`."""
@@ -101,6 +127,20 @@ class ConfiguredScene:
             raise SamplekitError(
                 f"scene {self.spec.name} of plugin {self.plugin} cannot {what}: {type(error).__name__}: {message}"
             ) from error
+
+
+def _centres(edges: NDArray[np.float64]) -> NDArray[np.float64]:
+    centres: NDArray[np.float64] = edges[:-1] + 0.5 * np.diff(edges)
+    return centres
+
+
+def _centred(tile: NDArray[np.float64], boxes: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The tile with pixel dimensions again, and boxes that are points."""
+    whole = np.zeros((tile.shape[0], tile.shape[1] + 2, tile.shape[2]))
+    whole[:, 2:] = tile
+    points = np.zeros_like(boxes)
+    points[0::2] = boxes[0::2] + 0.5 * boxes[1::2]
+    return whole, points
 
 
 def configured_scene(text: str, **options: object) -> ConfiguredScene:

@@ -43,6 +43,8 @@ class Rendering:
         the wall clock.
     plan
         What was rendered.
+    reference_kind
+        How exact the reference is, in words; empty when it was left out.
     """
 
     image: NDArray[np.float64]
@@ -51,6 +53,7 @@ class Rendering:
     metrics: dict[str, float]
     seconds: dict[str, float]
     plan: Plan = field(repr=False)
+    reference_kind: str = ""
 
 
 def default_threads() -> int:
@@ -119,14 +122,18 @@ def render_plan(
         metrics["invalid_pixels"] = int(invalid.size)
     shaped = image.reshape(plan.window[3], plan.window[2])
     reference = error = None
+    reference_kind = ""
     reference_began = time.perf_counter()
     if plan.reference:
         from samplekit.metrics import metrics as image_metrics
 
-        reference = plan.scene.exact(plan.x_edges, plan.y_edges)
+        exact = plan.scene.reference(plan.x_edges, plan.y_edges)
+        reference, reference_kind = exact.image, exact.kind
         reference_seconds = time.perf_counter() - reference_began
         error = shaped - reference
         metrics |= image_metrics(shaped, reference, ssim=ssim, flip=flip)
+        if exact.error > 0.0:
+            metrics["reference_error"] = exact.error
     metrics |= {
         "samples": int(plan.sampled.size) * plan.count,
         "dims": plan.scene.dims,
@@ -140,7 +147,7 @@ def render_plan(
         "reference": reference_seconds if plan.reference else 0.0,
         "total": time.perf_counter() - began,
     }
-    return Rendering(shaped, reference, error, metrics, seconds, plan)
+    return Rendering(shaped, reference, error, metrics, seconds, plan, reference_kind)
 
 
 class _Clock:

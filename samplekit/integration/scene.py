@@ -15,8 +15,16 @@ if TYPE_CHECKING:
 class Scene:
     """Base of all scenes. Options arrive by keyword, parsed; dashes in their names are underscores here.
 
-    A scene gives either ``value`` (NumPy, the simple door) or ``sums`` (a kernel, the fast door), and ``exact``.
+    A scene gives either ``value`` (NumPy, the simple door) or ``sums`` (a kernel, the fast door). All else has
+    defaults: without ``exact`` the reference is integrated numerically, and says how far it is to be trusted.
+
+    Attributes
+    ----------
+    reference_error
+        Bound of the error of ``exact`` in any pixel, beyond rounding; 0: exact.
     """
+
+    reference_error: float = 0.0
 
     def dimensions(self) -> Mapping[str, int]:
         """Dimensions needed with these options, by purpose and in their order: ``{"pixel": 2}``."""
@@ -53,8 +61,22 @@ class Scene:
         row_sums(values.reshape(pixels, count), out)
 
     def exact(self, x_edges: NDArray[np.float64], y_edges: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The exact mean over each pixel: float64[h, w] for edges float64[w + 1] and float64[h + 1], as stored."""
-        raise NotImplementedError(f"{type(self).__name__} has no reference")
+        """The exact mean over each pixel: float64[h, w] for edges float64[w + 1] and float64[h + 1], as stored.
+
+        By default adaptive quadrature; see :mod:`samplekit.integration.numerical`.
+        """
+        from samplekit.integration.numerical import numerical_means
+
+        return numerical_means(self, x_edges, y_edges).image
+
+    def exact_at(self, x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The exact mean over all other dimensions at the points x float64[w] by y float64[h]: float64[h, w].
+
+        By default Gauss rules; see :mod:`samplekit.integration.numerical`.
+        """
+        from samplekit.integration.numerical import numerical_means_at
+
+        return numerical_means_at(self, x, y).image
 
     def constant(self, x_edges: NDArray[np.float64], y_edges: NDArray[np.float64]) -> NDArray[np.float64]:
         """The value of each pixel in which the integrand is provably constant, NaN elsewhere: float64[h, w]."""
