@@ -29,6 +29,8 @@ def parse_choice(text: str, kind: str) -> Choice:
         The text does not have this form.
     """
     chosen, *randomizers = re.split(r"\+(?=[A-Za-z])", text) if kind == "sampler" else [text]
+    if any("." in randomizer.rpartition("/")[2] for randomizer in randomizers):
+        raise UsageError(f"{kind} {text!r}: a plus sign before a letter ends a value: expected +RANDOMIZER behind it")
     if len(randomizers) > 1:
         raise UsageError(f"{kind} {text!r}: one randomizer at most")
     name, colon, rest = chosen.partition(":")
@@ -36,7 +38,8 @@ def parse_choice(text: str, kind: str) -> Choice:
     for item in rest.split(",") if colon else []:
         option, equals, value = item.partition("=")
         if not equals or not option.strip() or not value.strip():
-            raise UsageError(f"{kind} {text!r}: expected NAME:option=value,... but found {item!r}")
+            hint = ": a comma ends a value" if options else ""
+            raise UsageError(f"{kind} {text!r}: expected NAME:option=value,... but found {item!r}{hint}")
         if option.strip() in options:
             raise UsageError(f"{kind} {text!r}: option {option.strip()!r} is given twice")
         options[option.strip()] = value.strip()

@@ -2,19 +2,10 @@
 
 from __future__ import annotations
 
+from samplekit.builtin.declarations.samplers import SAMPLERS
 from samplekit.hookspecs import hookimpl
-from samplekit.specs import (
-    GridStrata,
-    LatinStrata,
-    Net,
-    Option,
-    OrthogonalArray,
-    RandomizerSpec,
-    SamplerSpec,
-    SceneSpec,
-)
+from samplekit.specs import Option, RandomizerSpec, SamplerSpec, SceneSpec
 
-_SAMPLERS = "samplekit.builtin.samplers."
 _RANDOMIZERS = "samplekit.builtin.randomizers."
 _SCENES = "samplekit.builtin.scenes."
 _CENTRE = (
@@ -26,139 +17,7 @@ _CENTRE = (
 @hookimpl
 def samplekit_samplers() -> list[SamplerSpec]:
     """The built-in samplers."""
-    return [
-        SamplerSpec(
-            "random",
-            _SAMPLERS + "random:Random",
-            "independent uniform points: white noise",
-            reference="Steele, Lea, Flood 2014 (the hash)",
-            progressive="every-count",
-            largest_index=2**63 - 1,
-        ),
-        SamplerSpec(
-            "regular",
-            _SAMPLERS + "grid:Regular",
-            "the centres of a grid",
-            counts="products",
-            randomized=False,
-            unbiased=False,
-            promises=(GridStrata(),),
-        ),
-        SamplerSpec(
-            "jittered",
-            _SAMPLERS + "grid:Jittered",
-            "a random place in each cell of a grid",
-            reference="Cook, Porter, Carpenter 1984",
-            counts="products",
-            promises=(GridStrata(),),
-        ),
-        SamplerSpec(
-            "uncorrelated-jitter",
-            _SAMPLERS + "uncorrelated_jitter:UncorrelatedJitter",
-            "jittered pairs of dimensions (pixel, lens, ...) in random order",
-            reference="Cook, Porter, Carpenter 1984",
-            counts="products-in-2",
-            promises=(GridStrata(block=2),),
-        ),
-        SamplerSpec(
-            "latin-hypercube",
-            _SAMPLERS + "latin_hypercube:LatinHypercube",
-            "one point in each of N intervals of every dimension",
-            reference="McKay, Beckman, Conover 1979",
-            promises=(LatinStrata(),),
-        ),
-        SamplerSpec(
-            "n-rooks",
-            _SAMPLERS + "latin_hypercube:LatinHypercube",
-            "Latin hypercube in 2D",
-            reference="Shirley 1991",
-            dimensions=(2, 2),
-            promises=(LatinStrata(),),
-        ),
-        SamplerSpec(
-            "multi-jittered",
-            _SAMPLERS + "multi_jittered:MultiJittered",
-            "jittered and Latin at once",
-            reference="Chiu, Shirley, Wang 1994",
-            dimensions=(2, None),
-            counts="products-in-2",
-            promises=(LatinStrata(), GridStrata(block=2)),
-        ),
-        SamplerSpec(
-            "correlated-multi-jittered",
-            _SAMPLERS + "multi_jittered:CorrelatedMultiJittered",
-            "multi-jittered with the same shuffle in all columns and rows",
-            reference="Kensler 2013, Pixar 13-01",
-            dimensions=(2, None),
-            counts="products-in-2",
-            promises=(LatinStrata(), GridStrata(block=2)),
-        ),
-        SamplerSpec(
-            "orthogonal-array",
-            _SAMPLERS + "orthogonal_array:OrthogonalArraySampler",
-            "jittered in every pair (or triple) of dimensions, and Latin",
-            reference="Jarosz, Enayet, Kensler, Kilpatrick, Christensen 2019; Bose 1938; Bush 1952",
-            options=(
-                Option("strength", 2, "dimensions that are stratified together", 2, 3),
-                Option(
-                    "offset",
-                    "correlated",
-                    "places within strata",
-                    choices=("jittered", "multi-jittered", "correlated"),
-                ),
-            ),
-            dimensions=(2, None),
-            counts="prime-squares",
-            promises=(OrthogonalArray(2), LatinStrata()),
-        ),
-        SamplerSpec(
-            "van-der-corput",
-            _SAMPLERS + "radical_inverses:VanDerCorput",
-            "the mirrored digits of the index, in 1D",
-            reference="van der Corput 1935",
-            options=(Option("base", 2, "base of the digits", 2, 1000),),
-            dimensions=(1, 1),
-            progressive="every-count",
-            randomized=False,
-            unbiased=False,
-            largest_index=2**40 - 1,
-        ),
-        SamplerSpec(
-            "halton",
-            _SAMPLERS + "radical_inverses:Halton",
-            "radical inverses of the index in the primes",
-            reference="Halton 1960",
-            dimensions=(1, 1024),
-            progressive="every-count",
-            randomized=False,
-            unbiased=False,
-            largest_index=2**40 - 1,
-            promises=(Net(dims=(0,), base=2), Net(dims=(1,), base=3), Net(dims=(2,), base=5)),
-        ),
-        SamplerSpec(
-            "hammersley",
-            _SAMPLERS + "radical_inverses:Hammersley",
-            "index / count, then radical inverses in the primes",
-            reference="Hammersley 1960",
-            dimensions=(1, 1025),
-            randomized=False,
-            unbiased=False,
-            largest_index=2**40 - 1,
-            promises=(LatinStrata(dims=(0,)), Net(dims=(0, 1), base=2, sequence=False)),
-        ),
-        SamplerSpec(
-            "sobol",
-            _SAMPLERS + "sobol:Sobol",
-            "digital sequence in base 2 with good 2D projections",
-            reference="Sobol' 1967; Joe and Kuo 2008",
-            dimensions=(1, 4096),
-            progressive="powers-of-2",
-            randomized=False,
-            unbiased=False,
-            largest_index=2**32 - 1,
-            promises=(Net(dims=(0, 1), base=2),),
-        ),
-    ]
+    return list(SAMPLERS)
 
 
 @hookimpl

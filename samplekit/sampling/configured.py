@@ -210,7 +210,7 @@ def _construct(offer: Offer, values: Mapping[str, OptionValue]) -> Any:
     keywords = {name.replace("-", "_"): value for name, value in values.items()}
     try:
         return implementation(**keywords)
-    except UsageError:
+    except SamplekitError:
         raise
     except Exception as error:
         message = " ".join(str(error).split())

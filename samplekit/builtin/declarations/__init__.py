@@ -1,0 +1,1 @@
+"""Declarations of what comes with samplekit, by kind."""
