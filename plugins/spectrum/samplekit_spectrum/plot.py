@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from samplekit_spectrum.radial import Radial
 
-_LEFT, _RIGHT, _TOP, _WIDTH = 70, 696, 66, 720
+_LEFT, _RIGHT, _TOP, _WIDTH = 70, 696, 78, 720
 _POWER, _ANISOTROPY = 300, 130
 _INTERVAL = 2.576
 
@@ -70,7 +70,7 @@ def radial_plot(
     drawing.segment(_LEFT, one, _RIGHT, one, GUIDE, dashed=True)
     drawing.add(Text("white noise", _RIGHT - 4, one - 5, 11, "right", GUIDE))
     drawing.add(Band(place(x), up(np.maximum(power - error, 0.0)), up(power + error)))
-    drawing.add(Line(np.stack([place(x), up(power)], axis=1), CURVE, 1.6))
+    drawing.add(Line(_curve(place(x), up(power)), CURVE, 1.6))
     drawing.add(Text(power_label, _LEFT, _TOP - 4, 12))
     _anisotropy(drawing, radial, place, last, bottom + 66, realizations)
     drawing.add(Text(unit, (_LEFT + _RIGHT) / 2, height - 10, 12, "center"))
@@ -100,8 +100,15 @@ def _anisotropy(
     shown = np.isfinite(radial.anisotropy)
     if shown.any():
         heights = up(np.clip(radial.anisotropy[shown], low, high))
-        drawing.add(Line(np.stack([place(radial.frequency[shown]), heights], axis=1), CURVE, 1.4))
+        drawing.add(Line(_curve(place(radial.frequency[shown]), heights), CURVE, 1.4))
     drawing.add(Text("anisotropy, dB", _LEFT, top - 6, 12))
+
+
+def _curve(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Points of a polyline; a single one becomes a dash."""
+    if x.size == 1:
+        x, y = np.array([x[0] - 8.0, x[0]]), np.repeat(y, 2)
+    return np.stack([x, y], axis=1)
 
 
 def _axis(low: float, high: float, start: float, end: float) -> Callable[[NDArray[np.float64]], NDArray[np.float64]]:

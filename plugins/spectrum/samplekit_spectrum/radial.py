@@ -21,6 +21,10 @@ if TYPE_CHECKING:
     from samplekit_spectrum.moments import Moments
 
 
+_ROUNDING = 1e-12
+"""Relative differences that are none."""
+
+
 @dataclass(frozen=True, eq=False)
 class Radial:
     """Rings 1 to the reach: all that the cube does not cut.
@@ -60,5 +64,5 @@ def radial(cube: Cube, moments: Moments) -> Radial:
         (2 * counts[1:]).astype(np.int64),
         moments.ring_mean[1:],
         moments.ring_standard_error[1:],
-        np.asarray(np.where(variance == 0.0, -np.inf, anisotropy)[1:], np.float64),
+        np.asarray(np.where(variance <= (_ROUNDING * mean) ** 2, -np.inf, anisotropy)[1:], np.float64),
     )
