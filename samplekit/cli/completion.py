@@ -16,6 +16,13 @@ def complete_scene(incomplete: str) -> list[tuple[str, str]]:
     return _names("scene")
 
 
+def complete_named(kinds: str, incomplete: str) -> list[tuple[str, str]]:
+    """What is called like that among ``samplers``, ``scenes``, ``randomizers`` or ``plugins``."""
+    if kinds == "samplers":
+        return complete_sampler(incomplete)
+    return _names(kinds.removesuffix("s"))
+
+
 def _names(kind: str) -> list[tuple[str, str]]:
     try:
         from samplekit.registry import registry
