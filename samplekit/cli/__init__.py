@@ -10,6 +10,7 @@ from typing import Annotated, Any
 import typer
 
 from samplekit import __version__
+from samplekit.cli.check import check
 from samplekit.cli.info import info
 from samplekit.cli.listing import list_
 from samplekit.cli.plugin_commands import PluginGroup
@@ -50,6 +51,7 @@ def _main(
 
 app.command("render")(render)
 app.command("points")(points)
+app.command("check")(check)
 app.command("list")(list_)
 app.command("info")(info)
 

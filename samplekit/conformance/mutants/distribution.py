@@ -1,0 +1,127 @@
+# ruff: noqa: D102 - fill and spoil are what Mutant says they are; the class says what is broken
+"""Mutants that are biased, noisier than they say, or depend on other pixels and dimensions."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from samplekit.conformance.mutants.mutant import ALMOST_ONE, Mutant, indices, per_key
+from samplekit.sampling.realizations import Realizations
+
+if TYPE_CHECKING:
+    from samplekit.conformance.mutants.mutant import Array
+
+
+class HalfTheDomain(Mutant):
+    """Has the right mean, but visits half of the domain only."""
+
+    base, caught_by = "random", "uniformity"
+
+    def spoil(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        out[:, 0] = 0.25 + out[:, 0] / 2.0
+
+
+class BlindSpot(Mutant):
+    """Never visits a disk of radius 0.06."""
+
+    base, caught_by = "random", "uniformity"
+
+    def spoil(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        if out.shape[1] > 1:
+            inside = (out[:, 0] - 0.7) ** 2 + (out[:, 1] - 0.3) ** 2 < 0.06**2
+            out[:, 0] = np.where(inside, out[:, 0] - 0.2, out[:, 0])
+
+
+class SmallBias(Mutant):
+    """Has a bias of 1e-3."""
+
+    base, caught_by = "random", "unbiasedness"
+
+    def spoil(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        out[:, 0] *= 1.0 - 2e-3
+
+
+class LeftInTheCell(Mutant):
+    """Leaves out the digits past the 12th: every point lies at the left of its cell, a bias of 2^-13."""
+
+    base, caught_by = "sobol+owen", "unbiasedness"
+
+    def spoil(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        out[:] = np.floor(out * 4096.0) / 4096.0
+
+
+class TwinPoints(Mutant):
+    """Draws every second point a hair from the one before: half as many samples as it says."""
+
+    base, caught_by = "random", "variance"
+
+    def fill(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        index = indices(out, start)
+        whole = np.empty((*out.shape[:2], count + 1))
+        self.inner.fill(whole, realizations, count + 1, 0)
+        out[:] = np.minimum(whole[:, :, index // 2] + (index % 2) * 1e-9, ALMOST_ONE)
+
+
+class LumpedStrata(Mutant):
+    """Jitters all cells by one random vector in common, in a grid turned about: unbiased, but aliasing."""
+
+    base, caught_by = "random", "variance"
+
+    def spoil(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        shift = per_key(realizations, out.shape[1])[:, :, None]
+        out[:] = (np.floor(out * 8.0) / 8.0 + shift) % 1.0
+
+
+class SamePixels(Mutant):
+    """Gives all pixels one set, though it is declared randomised."""
+
+    base, caught_by = "random", "across-pixels"
+
+    def fill(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        zero = np.zeros_like(realizations.x)
+        self.inner.fill(out, Realizations.of_pixels(zero, zero, realizations.seed), count, start)
+
+
+class PeriodOf256(Mutant):
+    """Repeats every 256 pixels, as a production library does."""
+
+    base, caught_by = "sobol+owen", "across-pixels"
+
+    def fill(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        x, y = realizations.x & 255, realizations.y & 255
+        self.inner.fill(out, Realizations.of_pixels(x, y, realizations.seed), count, start)
+
+
+class NeighboursShare(Mutant):
+    """Lets pairs of pixels share one of their dimensions."""
+
+    base, caught_by = "random", "across-pixels"
+
+    def spoil(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        shared = np.empty_like(out)
+        pairs = Realizations.of_pixels(realizations.x // 2 + (1 << 20), realizations.y // 2, realizations.seed)
+        self.inner.fill(shared, pairs, count, start)
+        out[:, 0] = shared[:, 0]
+
+
+class PaddedAlike(Mutant):
+    """Pads dimension 2 with dimension 0, jittered anew in sixteenths."""
+
+    base, caught_by = "latin-hypercube", "across-dimensions"
+
+    def spoil(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        if out.shape[1] > 2:
+            out[:, 2] = np.floor(out[:, 0] * 16.0) / 16.0 + out[:, 1] / 16.0
+
+
+class MirroredDimensions(Mutant):
+    """Makes dimension 1 a copy of dimension 0 or its mirror image, by the toss of a coin in every pixel."""
+
+    base, caught_by = "random", "across-dimensions"
+
+    def spoil(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        if out.shape[1] > 1:
+            heads = per_key(realizations) < 0.5
+            out[:, 1] = np.where(heads, out[:, 0], ALMOST_ONE - out[:, 0])

@@ -1,0 +1,54 @@
+"""How often a statistical check is wrong, and what it can see: the thresholds of the five checks that are statistical.
+
+Seeds are fixed, so a verdict is the same in every run: a false alarm is a property of a sampler, not of a run. The
+probability that a conforming sampler has one is at most ``SAMPLER_RATE``; a run over at most 64 samplers has a
+false alarm with probability at most ``FAMILY_RATE``. Within a sampler the rate is shared equally by the checks, and
+within a check by its tests (Bonferroni), however these depend on each other.
+
+What each check sees (the smallest fault that it finds nine times in ten, for points with the variance of random ones;
+better samplers are seen through further):
+
+=================  =============================================================  =============================
+check              a run                                                          a quick run
+=================  =============================================================  =============================
+uniformity         density wrong by 7 % rms over 31 x 31 cells                    30 % rms
+unbiasedness       9e-4 of a coordinate's standard deviation per sqrt(4.2e6 / n)  16 times more points needed
+variance           1.6 times what is promised                                     2 times
+across-pixels      correlation of neighbours of 0.026                             0.1
+across-dimensions  correlation of two dimensions of 0.014                         0.027
+=================  =============================================================  =============================
+"""
+
+from __future__ import annotations
+
+from statistics import NormalDist
+
+FAMILY_RATE = 1e-3
+SAMPLERS_IN_A_FAMILY = 64
+SAMPLER_RATE = FAMILY_RATE / SAMPLERS_IN_A_FAMILY
+STATISTICAL_CHECKS = 5
+CHECK_RATE = SAMPLER_RATE / STATISTICAL_CHECKS
+
+
+def family_rate(samplers: int) -> float:
+    """The false-alarm rate of a run over this many samplers."""
+    return min(1.0, samplers * SAMPLER_RATE)
+
+
+def normal_threshold(tests: int) -> float:
+    """How many standard deviations each of ``tests`` two-sided tests allows."""
+    return -NormalDist().inv_cdf(CHECK_RATE / tests / 2.0)
+
+
+def student_threshold(tests: int, freedom: int) -> float:
+    """As ``normal_threshold``, where the standard deviation is estimated with ``freedom`` degrees."""
+    from scipy.special import stdtrit
+
+    return float(-stdtrit(freedom, CHECK_RATE / tests / 2.0))
+
+
+def chi_square_threshold(tests: int, freedom: int) -> float:
+    """The value that a chi-square of ``freedom`` degrees exceeds in one of ``tests`` tests."""
+    from scipy.special import chdtri
+
+    return float(chdtri(freedom, CHECK_RATE / tests))
