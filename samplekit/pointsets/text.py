@@ -57,13 +57,14 @@ def parse_points(text: str) -> NDArray[np.float64]:
         if stripped.startswith("#"):
             _close(sets, number)
             continue
-        fields = [field.strip() for field in stripped.split(",")] if "," in stripped else stripped.split()
-        row = _numbers(fields)
+        fields = stripped.split(",") if "," in stripped else stripped.split()
+        # Python alone takes 1_000 for a number.
+        row = None if "_" in stripped else _numbers(fields)
         if row is None:
             if width or any(_numbers([field]) for field in fields):
                 what = stripped[:_SHOWN] + ("..." if len(stripped) > _SHOWN else "")
                 raise UsageError(f"line {number}: expected numbers separated by commas or spaces, found {what!r}")
-            ours = fields[:2] == _OURS
+            ours = [field.strip() for field in fields[:2]] == _OURS
             width = len(fields)
             continue
         width = width or len(row)
@@ -83,9 +84,9 @@ def parse_points(text: str) -> NDArray[np.float64]:
 
 
 def _numbers(fields: list[str]) -> list[float] | None:
-    """The numbers that the fields are; None if one of them is none. Python's ``1_000`` is none to anybody else."""
+    """The numbers that the fields are; None if one of them is none."""
     try:
-        return None if any("_" in field for field in fields) else [float(field) for field in fields]
+        return list(map(float, fields))
     except ValueError:
         return None
 

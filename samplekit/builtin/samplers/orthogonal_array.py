@@ -44,6 +44,8 @@ _STRATA = _U64(0x5BE0CD19137E2179)
 _LINES = _U64(0x3C6EF372FE94F82B)
 JITTERED, MULTI_JITTERED, CORRELATED = range(3)
 STYLES = ("jittered", "multi-jittered", "correlated")
+_BLOCK = 1024
+"""Points that are made at a time, so that what is known of them stays in the cache."""
 _TABULATED = 4096
 """Largest number of sub-strata whose order, where all strata share it, is a table."""
 _COUNTS = {2: "prime-squares", 3: "prime-cubes"}
@@ -73,7 +75,8 @@ def _column(out: NDArray[np.float64], coefficients: NDArray[np.float64], column:
 def _fill(
     out: NDArray[np.float64], keys: NDArray[np.uint64], s: int, strength: int, style: int, count: int, start: int
 ) -> None:
-    realizations, dims, points = out.shape
+    realizations, dims, whole = out.shape
+    points = min(whole, _BLOCK)
     sublines = count // s
     shuffled = count <= SHUFFLED
     place = np.empty(max(points, min(count, SHUFFLED)), np.int64)
@@ -89,67 +92,69 @@ def _fill(
     shift, step, width = _U64(64 - bits), 2.0 ** (-bits), 1.0 / cells
     base = np.float64(s)
     for r in range(realizations):
-        order = mix64(keys[r] ^ _ORDER)
-        first = 0
-        if shuffled:
-            shuffle(place, count, order)
-            first = start
-        else:
-            for i in range(points):
-                place[i] = scatter(_U32(start + i), count_bits, order)
-            for i in range(points):
-                if place[i] >= count:
-                    place[i] = permute(place[i], count, count_bits, order)
-        for i in range(points):
-            rest = np.float64(place[first + i])
-            for k in range(strength):
-                quotient = np.floor((rest + 0.5) * (1.0 / base))
-                coefficients[k, i] = rest - base * quotient
-                rest = quotient
-        for d in range(dims):
-            key = dimension_key(keys[r], d)
-            second = second_key(key)
-            row = out[r, d]
-            _column(digits[0], coefficients, d, base)
-            shuffle(strata, s, mix64(key ^ _STRATA))
-            if style == JITTERED:
-                for i in range(points):
-                    cell = np.float64(strata[np.int64(digits[0, i])])
-                    row[i] = place_in_cell(cell, hash_index(key, second, _U64(start + i)), shift, step, width)
-                continue
-            # The other columns of the dimension's group: the last group moves back where it would pass column s.
-            group = min(d - d % strength, s + 1 - strength)
-            k = 0
-            for column in range(group, group + strength):
-                if column != d:
-                    k += 1
-                    _column(digits[k], coefficients, column, base)
-            for i in range(points):
-                other = digits[1, i]
-                for k in range(2, strength):
-                    other = other * base + digits[k, i]
-                place[i] = np.int64(other)
-            line_key = mix64(key ^ _LINES)
-            if tabulated:
-                shuffle(table, sublines, line_key)
-                for i in range(points):
-                    place[i] = table[place[i]]
-            elif style == MULTI_JITTERED and shuffled:
-                for line in range(s):
-                    shuffle(table[line * sublines :], sublines, mix64(line_key + _U64(line)))
-                for i in range(points):
-                    place[i] = table[np.int64(digits[0, i]) * sublines + place[i]]
+        for begin in range(start, start + whole, points):
+            n = min(points, start + whole - begin)
+            order = mix64(keys[r] ^ _ORDER)
+            first = 0
+            if shuffled:
+                shuffle(place, count, order)
+                first = begin
             else:
-                for line in range(s):
-                    lines[line] = line_key if style == CORRELATED else mix64(line_key + _U64(line))
-                for i in range(points):
-                    place[i] = scatter(_U32(place[i]), subline_bits, lines[np.int64(digits[0, i])])
-                for i in range(points):
-                    if place[i] >= sublines:
-                        place[i] = permute(place[i], sublines, subline_bits, lines[np.int64(digits[0, i])])
-            for i in range(points):
-                cell = np.float64(strata[np.int64(digits[0, i])] * sublines + place[i])
-                row[i] = place_in_cell(cell, hash_index(key, second, _U64(start + i)), shift, step, width)
+                for i in range(n):
+                    place[i] = scatter(_U32(begin + i), count_bits, order)
+                for i in range(n):
+                    if place[i] >= count:
+                        place[i] = permute(place[i], count, count_bits, order)
+            for i in range(n):
+                rest = np.float64(place[first + i])
+                for k in range(strength):
+                    quotient = np.floor((rest + 0.5) * (1.0 / base))
+                    coefficients[k, i] = rest - base * quotient
+                    rest = quotient
+            for d in range(dims):
+                key = dimension_key(keys[r], d)
+                second = second_key(key)
+                row = out[r, d, begin - start : begin - start + n]
+                _column(digits[0, :n], coefficients[:, :n], d, base)
+                shuffle(strata, s, mix64(key ^ _STRATA))
+                if style == JITTERED:
+                    for i in range(n):
+                        cell = np.float64(strata[np.int64(digits[0, i])])
+                        row[i] = place_in_cell(cell, hash_index(key, second, _U64(begin + i)), shift, step, width)
+                    continue
+                # The other columns of the dimension's group: the last group moves back where it would pass column s.
+                group = min(d - d % strength, s + 1 - strength)
+                k = 0
+                for column in range(group, group + strength):
+                    if column != d:
+                        k += 1
+                        _column(digits[k, :n], coefficients[:, :n], column, base)
+                for i in range(n):
+                    other = digits[1, i]
+                    for k in range(2, strength):
+                        other = other * base + digits[k, i]
+                    place[i] = np.int64(other)
+                line_key = mix64(key ^ _LINES)
+                if tabulated:
+                    shuffle(table, sublines, line_key)
+                    for i in range(n):
+                        place[i] = table[place[i]]
+                elif style == MULTI_JITTERED and shuffled:
+                    for line in range(s):
+                        shuffle(table[line * sublines :], sublines, mix64(line_key + _U64(line)))
+                    for i in range(n):
+                        place[i] = table[np.int64(digits[0, i]) * sublines + place[i]]
+                else:
+                    for line in range(s):
+                        lines[line] = line_key if style == CORRELATED else mix64(line_key + _U64(line))
+                    for i in range(n):
+                        place[i] = scatter(_U32(place[i]), subline_bits, lines[np.int64(digits[0, i])])
+                    for i in range(n):
+                        if place[i] >= sublines:
+                            place[i] = permute(place[i], sublines, subline_bits, lines[np.int64(digits[0, i])])
+                for i in range(n):
+                    cell = np.float64(strata[np.int64(digits[0, i])] * sublines + place[i])
+                    row[i] = place_in_cell(cell, hash_index(key, second, _U64(begin + i)), shift, step, width)
 
 
 def _prime_root(count: int, strength: int) -> int:
