@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from samplekit.builtin.declarations.samplers import SAMPLERS
 from samplekit.hookspecs import hookimpl
 from samplekit.specs import Option, RandomizerSpec, SamplerSpec, SceneSpec
@@ -90,4 +92,39 @@ def samplekit_scenes() -> list[SceneSpec]:
             options=(Option("cells", 8, "along a side", 1, 2**20),),
         ),
         SceneSpec("bilinear", _SCENES + "bilinear:Bilinear", "x times y"),
+        SceneSpec(
+            "depth-of-field",
+            _SCENES + "depth_of_field:DepthOfField",
+            "disks, a ring and a wall through a thin lens",
+            reference="Cook, Porter, Carpenter 1984; Shirley, Chiu 1997 (the lens)",
+            options=(
+                Option("aperture", 0.12, "diameter of the lens; 0: a pinhole", 0.0, 1e12),
+                Option("focus", 1.0, "depth in focus: 0.5 disks, 1 ring, 2 wall", 0.0, math.inf),
+            ),
+            purposes=(("pixel", 2), ("lens", 2)),
+        ),
+        SceneSpec(
+            "motion-blur",
+            _SCENES + "motion_blur:MotionBlur",
+            "moving disks over a board, through a lens if need be",
+            reference="Cook, Porter, Carpenter 1984",
+            options=(
+                Option("shutter", 0.5, "time that it is open; 0: all stands still", 0.0, 1e6),
+                Option("aperture", 0.0, "diameter of the lens; 0: a pinhole", 0.0, 1e6),
+            ),
+            purposes=(("pixel", 2), ("lens", 2), ("time", 1)),
+        ),
+        SceneSpec(
+            "ambient-occlusion",
+            _SCENES + "ambient_occlusion:AmbientOcclusion",
+            "the sky that a floor and a sphere see",
+            reference="Langer, Bülthoff 2000",
+            options=(
+                Option("radius", 0.9, "of the sphere; 0: none", 0.0, 1e6),
+                Option("height", 1.0, "of the sphere's centre, at least the radius", 0.0, 1e6),
+                Option("cx", 0.0, "where the sphere stands, to the right", -1e6, 1e6),
+                Option("cy", 0.0, "where the sphere stands, to the back", -1e6, 1e6),
+            ),
+            purposes=(("pixel", 2), ("direction", 2)),
+        ),
     ]
