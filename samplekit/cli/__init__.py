@@ -13,6 +13,7 @@ from samplekit import __version__
 from samplekit.cli.check import check
 from samplekit.cli.info import info
 from samplekit.cli.listing import list_
+from samplekit.cli.new_plugin import new_plugin
 from samplekit.cli.plugin_commands import PluginGroup
 from samplekit.cli.points import points
 from samplekit.cli.render import render
@@ -54,6 +55,7 @@ app.command("points")(points)
 app.command("check")(check)
 app.command("list")(list_)
 app.command("info")(info)
+app.command("new-plugin")(new_plugin)
 
 
 def main() -> None:
