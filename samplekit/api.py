@@ -9,7 +9,7 @@ import numpy as np
 from samplekit.errors import UsageError
 from samplekit.integration.configured import ConfiguredScene, configured_scene
 from samplekit.integration.estimator import UNIT_SQUARE, Estimator, Seconds
-from samplekit.integration.plan import make_plan
+from samplekit.integration.plan import check_points, make_plan
 from samplekit.integration.renderer import Rendering, render_plan
 from samplekit.registry import Plugin, registry
 from samplekit.sampling.configured import ConfiguredSampler, configured_sampler
@@ -158,7 +158,7 @@ def estimate(
     True
     """
     integrand, source = _scene(scene), _sampler(sampler)
-    source.check(count, integrand.dims, integrand.blocks)
+    check_points(integrand, source, count)
     check_seed(seed)
     if isinstance(realizations, bool) or not isinstance(realizations, (int, np.integer)) or realizations < 1:
         raise UsageError(f"realizations {realizations}: expected a positive integer")

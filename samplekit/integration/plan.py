@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from samplekit.integration.configured import ConfiguredScene
     from samplekit.sampling.configured import ConfiguredSampler
+    from samplekit.specs import SamplerSpec
 
 MOST_SAMPLES = 2**48
 """Samples of one rendering: weeks of work; a larger request is a slip of the keyboard."""
@@ -84,9 +85,8 @@ class Plan:
     def explain(self) -> list[str]:
         """What is done and what is left out, one line each."""
         left_out = self.pixels - self.sampled.size
-        needs = ", ".join(f"{purpose} {number}" for purpose, number in self.scene.needs.items())
         unneeded = [purpose for purpose, _ in self.scene.spec.purposes if purpose not in self.scene.needs]
-        lines = [f"dimensions: {self.scene.dims} ({needs})"]
+        lines = [f"dimensions: {self.scene.dims} ({_needs(self.scene)})"]
         if unneeded:
             lines.append(f"left out: the dimensions of {', '.join(unneeded)}: not needed with these options")
         if self.full:
@@ -129,7 +129,7 @@ def make_plan(
             raise UsageError(f"size {size[0]}x{size[1]}: expected width and height from 1 to {2**31}")
     width, height = int(size[0]), int(size[1])
     window = check_crop(crop, (width, height)) if crop else (0, 0, width, height)
-    sampler.check(count, scene.dims, scene.blocks)
+    check_points(scene, sampler, count)
     pixels = window[2] * window[3]
     if pixels * count > MOST_SAMPLES:
         raise UsageError(
@@ -137,6 +137,41 @@ def make_plan(
         )
     _check_memory(pixels)
     return Plan(scene, sampler, int(count), (width, height), window, seed, full, reference)
+
+
+def check_points(scene: ConfiguredScene, sampler: ConfiguredSampler, count: int) -> None:
+    """Raise unless the sampler gives the points that the scene needs.
+
+    Raises
+    ------
+    UsageError
+        Where the dimensions are at fault it names the samplers that make them.
+    """
+    try:
+        sampler.check(count, scene.dims, scene.blocks)
+    except UsageError as error:
+        if _reaches(sampler.spec, scene.dims):
+            raise
+        from samplekit.counts import allows
+        from samplekit.registry import registry
+
+        able = [
+            name
+            for name, offer in registry().all("sampler").items()
+            if _reaches(offer.spec, scene.dims)
+            and allows(offer.spec.counts, count, scene.dims)
+            and not offer.spec.required_options
+        ]
+        raise UsageError(f"{error}: {scene.text} needs {_needs(scene)}; {', '.join(able)} can") from None
+
+
+def _reaches(spec: SamplerSpec, dims: int) -> bool:
+    least, most = spec.dimensions
+    return least <= dims and (most is None or dims <= most)
+
+
+def _needs(scene: ConfiguredScene) -> str:
+    return ", ".join(f"{purpose} {number}" for purpose, number in scene.needs.items())
 
 
 def _check_memory(pixels: int) -> None:

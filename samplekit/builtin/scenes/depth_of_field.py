@@ -195,7 +195,8 @@ class DepthOfField(Scene):
             y_edges,
             known=self.constant(x_edges, y_edges),
             curves=self._edges(sharp),
-            largest=LARGEST_CELL,
+            # Where every layer is blurred over many cells, so is what varies.
+            largest=max(LARGEST_CELL, np.abs(self.confusion).min() / 8.0),
             orders=(2, 3),
         )
 
