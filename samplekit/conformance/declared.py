@@ -11,6 +11,8 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from samplekit.specs import SamplerSpec
 
 _LARGEST_ASPECT = 2
@@ -63,31 +65,46 @@ def allows(rule: str, count: int, dims: int) -> bool:
         return False
     if rule == "any":
         return True
-    if rule in ("products", "products-in-2"):
-        return bool(grids(count, dims if rule == "products" else 2))
+    if rule.startswith("products"):
+        return bool(grids(count, dims if rule == "products" else int(rule.rpartition("-")[2])))
     if rule == "squares":
         return math.isqrt(count) ** 2 == count
     if rule.startswith("prime-"):
         degree = 2 if rule == "prime-squares" else 3
-        return any(_is_prime(root) and root**degree == count for root in range(2, 10_000) if root**degree <= count)
+        roots = itertools.takewhile(lambda root: root**degree <= count, itertools.count(2))
+        return any(root**degree == count and _is_prime(root) for root in roots)
+    if rule == "fibonacci":
+        before, number = 1, 1
+        while number < count:
+            before, number = number, before + number
+        return number == count
+    if rule.startswith("exactly-"):
+        return count == int(rule.rpartition("-")[2])
     return is_power(count, int(rule.rpartition("-")[2]))
 
 
-def allowed_near(rule: str, count: int, dims: int, largest: int = 1 << 17) -> int | None:
-    """The allowed count nearest to ``count``; the smaller of two; None if there is none up to ``largest``."""
+def allowed_near(
+    rule: str, count: int, dims: int, largest: int = 1 << 17, makes: Callable[[int], bool] = lambda _: True
+) -> int | None:
+    """The allowed count nearest to ``count``; the smaller of two; None if there is none up to ``largest``.
+
+    ``makes``: whether the sampler itself refuses none of the allowed, for what its declaration cannot say.
+    """
     for distance in itertools.count():
         for candidate in (count - distance, count + distance):
-            if 1 <= candidate <= largest and allows(rule, candidate, dims):
+            if 1 <= candidate <= largest and allows(rule, candidate, dims) and makes(candidate):
                 return candidate
         if count + distance > largest and count - distance < 1:
             return None
     return None
 
 
-def counts_of(spec: SamplerSpec, wanted: tuple[int, ...], dims: int) -> list[int]:
-    """For each wanted count the nearest that the declaration allows, rising, each once."""
+def counts_of(
+    spec: SamplerSpec, wanted: tuple[int, ...], dims: int, makes: Callable[[int], bool] = lambda _: True
+) -> list[int]:
+    """For each wanted count the nearest that the declaration allows, and the sampler makes, rising, each once."""
     most = spec.largest_index + 1
-    near = {allowed_near(spec.counts, min(count, most), dims) for count in wanted}
+    near = {allowed_near(spec.counts, min(count, most), dims, makes=makes) for count in wanted}
     return sorted(count for count in near if count is not None and count <= most)
 
 

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.conformance.declared import most_dims
 from samplekit.conformance.result import CheckFailed, NotApplicable, check
 from samplekit.conformance.statistics import chi_square_threshold, normal_threshold
 
@@ -33,7 +32,7 @@ def _has_pairs(spec: SamplerSpec) -> str:
 @check("across-dimensions", 14, tolerance="family-wise 1e-3: about 5 / sqrt(n)", requires=_has_pairs)
 def check_across_dimensions(subject: Subject) -> None:
     """Two dimensions of a set are correlated no more than random ones, in every set and on average."""
-    dims = most_dims(subject.spec, _QUICK_DIMS if subject.quick else _DIMS)
+    dims = subject.most_dims(_QUICK_DIMS if subject.quick else _DIMS)
     randomized = subject.spec.randomized
     counts = subject.counts(_COUNT, dims=dims)
     if dims < 2 or not counts or counts[0] < 16:

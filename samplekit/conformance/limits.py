@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.conformance.declared import allows, most_dims
+from samplekit.conformance.declared import allows
 from samplekit.conformance.result import CheckFailed, CounterExample, check
 from samplekit.errors import UsageError
 
@@ -31,6 +31,7 @@ def check_limits(subject: Subject) -> None:
         _refused(subject, subject.counts(4, dims=dims)[0], most + 1, str(most))
     for count in COUNTS:
         if allows(subject.spec.counts, count, dims) and count <= subject.spec.largest_index + 1:
+            _accepted(subject, count, dims)
             _made_in_full(subject, count, dims)
         else:
             _refused_count(subject, count, dims)
@@ -75,6 +76,14 @@ def _refusal(subject: Subject, count: int, dims: int) -> str:
     raise CheckFailed("makes what it declares that it cannot: expected an error", example)
 
 
+def _accepted(subject: Subject, count: int, dims: int) -> None:
+    """What is declared is not refused, in so few dimensions."""
+    try:
+        subject.sampler.check(count, dims)
+    except UsageError as error:
+        raise CheckFailed(f"refuses what it declares: {error}", CounterExample(subject.text, count, dims)) from None
+
+
 def _made_in_full(subject: Subject, count: int, dims: int) -> None:
     """As many different points as were asked for: a count rounded in silence shows as points that repeat."""
     values = subject.sets(count, dims, 2)
@@ -93,7 +102,7 @@ def _made_in_full(subject: Subject, count: int, dims: int) -> None:
 def _all_dimensions_differ(subject: Subject) -> None:
     """No two dimensions are the same numbers: dimensions wrapped in silence are."""
     spec = subject.spec
-    dims = most_dims(spec, (spec.dimensions[1] or 256) if not subject.quick else 256)
+    dims = subject.most_dims((spec.dimensions[1] or 256) if not subject.quick else 256)
     if dims < 2:
         return
     # A grid in so many dimensions has two cells along each.

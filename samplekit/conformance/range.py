@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.conformance.declared import dims_of, most_dims
+from samplekit.conformance.declared import dims_of
 from samplekit.conformance.elsewhere import forced_extremes
 from samplekit.conformance.result import CheckFailed, CounterExample, check
 from samplekit.errors import UsageError
@@ -32,11 +32,10 @@ def outside(values: NDArray[np.float64]) -> tuple[int, int, int] | None:
 @check("range", 1)
 def check_range(subject: Subject) -> None:
     """Every value is at least 0 and below 1."""
-    spec = subject.spec
     rounded = drawn = 0
     dims = subject.dims(2)
     requests = [(count, dims, 64 if count <= 100 else 4) for count in subject.counts(*COUNTS, 4096, dims=dims)]
-    high = most_dims(spec, 64)
+    high = subject.most_dims(64)
     requests += [(count, high, 4) for count in subject.counts(2, 64, dims=high)]
     # Many draws: a value that reaches 1.0 once in a million is seen with probability 1 - exp(-2).
     count = subject.counts(64, dims=dims)[0]
@@ -76,7 +75,7 @@ def judge_range(subject: Subject, values: NDArray[np.float64], count: int, seed:
 def check_shape(subject: Subject) -> None:
     """Every request gives all its points, finite float64, at both limits of the dimensions, and writes nothing else."""
     spec = subject.spec
-    low, high = dims_of(spec, 1), most_dims(spec, 4096 if spec.dimensions[1] else 256)
+    low, high = dims_of(spec, 1), subject.most_dims(4096 if spec.dimensions[1] else 256)
     if high < (spec.dimensions[1] or 0):
         subject.note(f"judged in up to {high} dimensions")
     for dims, wanted in ((low, COUNTS), (subject.dims(2), COUNTS), (high, (1, 3, 64) if high > 64 else COUNTS)):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.conformance.declared import counts_of, dims_of
+from samplekit.conformance.declared import allows, counts_of, dims_of, most_dims
 from samplekit.conformance.result import CheckFailed, CounterExample
 from samplekit.errors import SamplekitError, UsageError
 from samplekit.registry import Offer, Plugin
@@ -26,6 +26,7 @@ Recipe = str | SamplerSpec
 """What a user writes (``"sobol+owen"``), or the declaration of a sampler that is not installed."""
 
 _LARGEST_KEPT = 1 << 14
+_SMALL = 4096
 _LARGEST_COUNTS = ((0.02, 1 << 17), (0.2, 1 << 12), (1.0, 1 << 10))
 """Seconds that 256 points take at most, and the largest set that is then judged; work may grow as the square."""
 _SECONDS_A_REQUEST = 1.5
@@ -69,7 +70,33 @@ class Subject:
     def counts(self, *wanted: int, dims: int) -> list[int]:
         """The declared counts nearest to those wanted, without those that would take a slow sampler too long."""
         affordable = tuple(count for count in wanted if count <= 256 or count <= self.largest_count)
-        return counts_of(self.spec, affordable or (256,), dims)
+        return counts_of(self.spec, affordable or (256,), dims, lambda count: self.makes(count, dims))
+
+    def makes(self, count: int, dims: int) -> bool:
+        """Whether the sampler accepts a request: an orthogonal array of s^2 points has at most s + 1 dimensions, say.
+
+        What it may not refuse is judged by the check of its limits.
+        """
+        try:
+            self.sampler.check(count, dims)
+        except UsageError:
+            return False
+        return True
+
+    def most_dims(self, limit: int) -> int:
+        """The largest number of dimensions up to ``limit`` in which it makes some count up to 4096."""
+        rule, high = self.spec.counts, most_dims(self.spec, limit)
+        if rule == "products":
+            return high
+        counts = [count for count in range(_SMALL, 0, -1) if allows(rule, count, high)]
+        low = min(self.dims(1), high)
+        while low < high:
+            middle = (low + high + 1) // 2
+            if any(self.makes(count, middle) for count in counts):
+                low = middle
+            else:
+                high = middle - 1
+        return low
 
     @cached_property
     def largest_count(self) -> int:
@@ -77,9 +104,9 @@ class Subject:
         dims = self.dims(2)
         count = counts_of(self.spec, (256,), dims)[0]
         self.sets(count, dims, 1)
-        began = time.perf_counter()
+        began = time.process_time()
         self.sets(count, dims, 1, first=1)
-        seconds = time.perf_counter() - began
+        seconds = time.process_time() - began
         largest = next((size for limit, size in _LARGEST_COUNTS if seconds < limit), 256)
         if largest < _LARGEST_COUNTS[0][1]:
             self.note(f"slow sampler ({seconds:.2g} s for {count} points): judged on sets of up to {largest} points")
@@ -167,13 +194,14 @@ class Subject:
     def affordable(self, wanted: int, count: int, dims: int, least: int = 64) -> int:
         """``wanted`` realisations, or a power of four fewer where the sampler is slow; says so in a note.
 
-        The ladder keeps results comparable: two machines differ only where one is four times slower.
+        The ladder keeps results comparable: two machines differ only where one is four times slower. Time is the
+        processor's, so that a busy machine judges as an idle one does.
         """
         probe = Realizations.of_trials(0, 8, 0)
         self.fill(probe, count, dims)
-        began = time.perf_counter()
+        began = time.process_time()
         self.fill(probe, count, dims)
-        seconds = (time.perf_counter() - began) / 8
+        seconds = (time.process_time() - began) / 8
         budget = _SECONDS_A_QUICK_REQUEST if self.quick else _SECONDS_A_REQUEST
         realizations = wanted
         while realizations // 4 >= least and realizations * seconds > budget:
