@@ -1,8 +1,8 @@
 """References of scenes that give values alone: adaptive quadrature over the pixel, Gauss rules over all else.
 
 Deterministic, and independent of any sampler. What is reached is told: ``Reference.error`` is what two rules differ by,
-summed over a pixel's cells, in the worst pixel: an estimate from above, no proof. A detail that falls between all nodes
-(25 in a pixel, which is never taken wider than 1/64) stays unseen.
+summed over a pixel's cells, in the worst pixel: an estimate from above, no proof. A detail that falls between all
+nodes (33 in a pixel, which is never taken wider than 1/64) stays unseen.
 """
 
 from __future__ import annotations
@@ -75,6 +75,7 @@ def numerical_means(scene: Scene, x_edges: Array, y_edges: Array) -> Reference:
         y_edges,
         known=known,
         largest=_LARGEST_CELL,
+        borders=True,
         tolerance=TOLERANCE,
         evaluations=EVALUATIONS // size,
     )

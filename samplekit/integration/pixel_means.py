@@ -29,6 +29,8 @@ MOST_EVALUATIONS = 2**26
 _CELLS_AT_ONCE = 2**14
 _BUFFER = 2**20
 _DEEPEST = 26
+_BORDER = 0.03
+"""Largest share of a cell that an edge cuts off between a corner and the nodes of a rule of order 5."""
 
 
 @dataclass(frozen=True)
@@ -56,6 +58,7 @@ def pixel_means(
     curves: Curves | None = None,
     largest: float = math.inf,
     orders: tuple[int, int] = (3, 5),
+    borders: bool = False,
     tolerance: float = 1e-6,
     evaluations: int = MOST_EVALUATIONS,
 ) -> tuple[Array, Array]:
@@ -65,6 +68,7 @@ def pixel_means(
     ----------
     function
         Bounded; steps that ``curves`` do not name are found only where nodes of the first cells see both sides.
+        Called from several threads.
     x_edges, y_edges
         float64[w + 1], float64[h + 1].
     known
@@ -75,6 +79,9 @@ def pixel_means(
         Pixels are divided until the sides of a cell are at most this long: the size of what must not be missed.
     orders
         Nodes along an axis of the two rules that are compared, for cells without curves.
+    borders
+        Also compare each cell's corners and the middles of its sides with what the finer rule's polynomial has there:
+        for functions with steps that nobody names, which may cut off a corner before the first node.
     tolerance
         A cell of 1/4^k of its pixel is divided while its rules differ by more than this times 2^k.
     evaluations
@@ -98,7 +105,16 @@ def pixel_means(
         share = int(evaluations * pixels.size / wanted.size)
         cells, owners = _divided(boxes, np.arange(pixels.size), int(parts[0]), int(parts[1]))
         found = _integrate(
-            function, cells, owners, pixels.size, 1.0 / parts.prod(), curves or Curves(), orders, tolerance, share
+            function,
+            cells,
+            owners,
+            pixels.size,
+            1.0 / parts.prod(),
+            curves or Curves(),
+            orders,
+            borders,
+            tolerance,
+            share,
         )
         means[pixels], errors[pixels] = found
 
@@ -126,6 +142,7 @@ def _integrate(
     fraction: float,
     curves: Curves,
     orders: tuple[int, int],
+    borders: bool,
     tolerance: float,
     evaluations: int,
 ) -> tuple[Array, Array]:
@@ -134,10 +151,10 @@ def _integrate(
     for _ in range(_DEEPEST):
         crossed = np.zeros(cells.shape[1], np.bool_)
         mark_crossed(cells, curves.circles, curves.lines, crossed)
-        rough, rough_used = _rule(function, cells, crossed, curves, orders[0])
-        fine, fine_used = _rule(function, cells, crossed, curves, orders[1])
+        rough, _, rough_used = _rule(function, cells, crossed, curves, orders[0], False)
+        fine, misfit, fine_used = _rule(function, cells, crossed, curves, orders[1], borders)
         evaluations -= rough_used + fine_used
-        difference = np.abs(fine - rough)
+        difference = np.abs(fine - rough) + misfit
         done = difference <= tolerance / math.sqrt(fraction)
         if evaluations < 4 * (rough_used + fine_used) * np.count_nonzero(~done) / done.size:
             done[:] = True
@@ -160,19 +177,22 @@ def _gauss(order: int) -> tuple[Array, Array]:
 
 
 def _rule(
-    function: Function, cells: Array, crossed: NDArray[np.bool_], curves: Curves, order: int
-) -> tuple[Array, int]:
-    """Return the mean over each of the cells float64[4, C], and the number of evaluations."""
-    means = np.empty(cells.shape[1])
+    function: Function, cells: Array, crossed: NDArray[np.bool_], curves: Curves, order: int, borders: bool
+) -> tuple[Array, Array, int]:
+    """Return the mean over each of the cells float64[4, C], the misfit at its border, and the number of evaluations."""
+    means, misfit = np.empty(cells.shape[1]), np.zeros(cells.shape[1])
     smooth = cells[:, ~crossed]
     nodes, weights = _gauss(order)
-    x = smooth[0] + (smooth[1] - smooth[0]) * nodes[:, None]
-    y = smooth[2] + (smooth[3] - smooth[2]) * nodes[:, None]
-    shape = (order, order, smooth.shape[1])
-    points = np.array([np.broadcast_to(x[None], shape).ravel(), np.broadcast_to(y[:, None], shape).ravel()])
-    used = points.shape[1]
-    if used:
-        means[~crossed] = np.einsum("i,j,ijc->c", weights, weights, function(points).reshape(shape))
+    values = _on_grid(function, smooth, nodes)
+    used = values.size
+    means[~crossed] = np.einsum("i,j,ijc->c", weights, weights, values)
+    if borders:
+        places = np.array([2.0**-20, 0.5, 1.0 - 2.0**-20])
+        true = _on_grid(function, smooth, places)
+        basis = np.array([np.prod([(places - b) / (a - b) for b in nodes if b != a], axis=0) for a in nodes])
+        polynomial = np.einsum("ip,jq,ijc->pqc", basis, basis, values)
+        misfit[~crossed] = _BORDER * np.abs(true - polynomial).max(axis=(0, 1))
+        used += true.size
     rest = np.flatnonzero(crossed)
     # Along a piece the substitution takes away two orders.
     nodes, weights = _gauss(order + 3)
@@ -186,4 +206,13 @@ def _rule(
         means[rest[:filled]] = sums[ends[:filled]] - sums[starts]
         used += count
         rest = rest[filled:]
-    return means, used
+    return means, misfit, used
+
+
+def _on_grid(function: Function, cells: Array, places: Array) -> Array:
+    """Return values float64[n, n, C] at n x n places, given on [0, 1], of each cell; rows first."""
+    x = cells[0] + (cells[1] - cells[0]) * places[:, None]
+    y = cells[2] + (cells[3] - cells[2]) * places[:, None]
+    shape = (places.size, places.size, cells.shape[1])
+    points = np.array([np.broadcast_to(x[None], shape).ravel(), np.broadcast_to(y[:, None], shape).ravel()])
+    return function(points).reshape(shape) if points.size else np.empty(shape)
