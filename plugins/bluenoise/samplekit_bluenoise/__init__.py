@@ -1,0 +1,40 @@
+"""Blue noise: the declarations. Nothing here imports NumPy; the samplers are imported when they are used."""
+
+from samplekit import MinimumDistance, Option, SamplerSpec, hookimpl
+
+DEFAULT_RADIUS = 0.698
+"""A distance of 0.75 / sqrt(N): disks that cover 0.44 of the torus, where random ones jam at 0.547."""
+LARGEST_RADIUS = 0.76
+"""Disks that cover 0.524: dart throwing still finds room for the last, in at most a few attempts."""
+
+
+def _bank(sets: int) -> Option:
+    return Option("bank", sets, "sets that all pixels share, shifted and mirrored; 0: each pixel a fresh set", 0, 2**16)
+
+
+@hookimpl
+def samplekit_samplers() -> list[SamplerSpec]:
+    """The blue-noise samplers."""
+    return [
+        SamplerSpec(
+            "poisson-disk",
+            "samplekit_bluenoise.poisson_disk:PoissonDisk",
+            "random points that keep a distance on the torus",
+            reference="Cook 1986; Jones 2006; White, Cline, Egbert 2007; Yuksel 2015 (elimination)",
+            options=(
+                Option(
+                    "radius",
+                    DEFAULT_RADIUS,
+                    "least distance as a fraction of the densest packing's; random disks jam at 0.777",
+                    0.0,
+                    LARGEST_RADIUS,
+                ),
+                Option("method", "darts", "how the points are found", choices=("darts", "elimination")),
+                _bank(0),
+            ),
+            dimensions=(2, 2),
+            largest_index=2**20 - 1,
+            promises=(MinimumDistance(DEFAULT_RADIUS),),
+            fresh_options={"bank": 0},
+        ),
+    ]

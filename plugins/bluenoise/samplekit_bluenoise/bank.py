@@ -1,0 +1,157 @@
+"""Sets made as a whole, and banks of them: few sets that all pixels share, each under its own shift and symmetry.
+
+A random shift on the torus and one of the eight symmetries of the square keep every distance and the expected power
+spectrum, and make any set unbiased; so fresh sets get them too. A bank depends on the sampler, its options and the
+count, not on the seed: it is made once, and kept across runs.
+"""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections import OrderedDict
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from samplekit.cache import cached_array
+from samplekit.numerics.kernel import kernel
+from samplekit.sampling.hashing import below, hash_index, mix64, second_key, unit
+from samplekit.sampling.realizations import Realizations
+from samplekit.sampling.sampler import Sampler
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+VERSION = 1
+"""Part of a bank's key: to be raised when any sampler here gives other points."""
+MOST_POINTS = 2**22
+"""A bank holds no more points than this, 64 MB: beyond 65 536 points a bank of 64 sets becomes one of fewer."""
+
+_U64 = np.uint64
+_PLACE = _U64(0x510E527FADE682D1)
+_SEED = 0xB1EE_015E
+_FRESH_POINTS = 2**16
+_MOST_BANKS = 4
+
+_lock = threading.Lock()
+_banks: OrderedDict[str, NDArray[np.float64]] = OrderedDict()
+
+
+@kernel("void(float64[:,:,::1], float64[:,:,::1], uint64[::1], int64, boolean)")
+def _place(
+    out: NDArray[np.float64], sets: NDArray[np.float64], keys: NDArray[np.uint64], start: int, shared: bool
+) -> None:
+    """Write points of set r, or of any set if they are ``shared``, under the shift and symmetry of realisation r.
+
+    ``sets`` float64[S, 2, N] may be ``out`` itself.
+    """
+    realizations, _, points = out.shape
+    for r in range(realizations):
+        key = mix64(keys[r] ^ _PLACE)
+        second = second_key(key)
+        chosen = np.int64(below(hash_index(key, second, _U64(0)), _U64(sets.shape[0]))) if shared else r
+        symmetry = np.int64(hash_index(key, second, _U64(1)) & _U64(7))
+        shift_x = unit(hash_index(key, second, _U64(2)))
+        shift_y = unit(hash_index(key, second, _U64(3)))
+        for i in range(points):
+            x = sets[chosen, 0, start + i]
+            y = sets[chosen, 1, start + i]
+            if symmetry & 4:
+                x, y = y, x
+            # Multiples of 2^-53 below 1: the difference is exact, and so is its sum with 1.
+            x = shift_x - x if symmetry & 1 else x - shift_x
+            y = shift_y - y if symmetry & 2 else y - shift_y
+            out[r, 0, i] = x + 1.0 if x < 0.0 else x
+            out[r, 1, i] = y + 1.0 if y < 0.0 else y
+
+
+class WholeSets(Sampler):
+    """Base of the samplers that make a set as a whole, in two dimensions.
+
+    Parameters
+    ----------
+    name
+        What the bank depends on but for the count: the sampler and its options.
+    bank
+        Number of sets in the bank; 0 makes every realisation afresh.
+    """
+
+    def __init__(self, name: str, bank: int) -> None:
+        self._name = name
+        self._bank = bank
+
+    def make(self, sets: NDArray[np.float64], realizations: Realizations) -> None:
+        """Write whole sets to ``sets`` float64[R, 2, N], coordinates in [0, 1) that are multiples of 2^-53."""
+        raise NotImplementedError
+
+    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+        """Write points of the sets; see :meth:`samplekit.Sampler.fill`."""
+        if self._bank:
+            _place(out, self._sets(count), realizations.keys, start, True)
+            return
+        rows = max(1, _FRESH_POINTS // count)
+        for first in range(0, len(realizations), rows):
+            some = realizations[first : first + rows]
+            part = out[first : first + rows]
+            sets = part if part.shape[2] == count else np.empty((len(some), 2, count))
+            self.make(sets, some)
+            _place(part, sets, some.keys, start, False)
+
+    def prepare(self, count: int, dims: int, progress: Callable[[int, int], None]) -> None:
+        """Make the bank, or load it; see :meth:`samplekit.Sampler.prepare`."""
+        if self._bank:
+            self._sets(count, progress)
+
+    def notes(self, count: int, dims: int) -> list[str]:
+        """That the sets come from a bank; see :meth:`samplekit.Sampler.notes`."""
+        if not self._bank:
+            return []
+        size = self._size(count)
+        plural = "s" if count > 1 else ""
+        return [f"one of {size} sets of {count} point{plural}, under a random shift and symmetry"]
+
+    @property
+    def streams(self) -> bool:
+        """A part of a set from the bank costs a part of the whole; a fresh one is made whole."""
+        return self._bank > 0
+
+    def _size(self, count: int) -> int:
+        return max(1, min(self._bank, MOST_POINTS // count))
+
+    def _sets(self, count: int, progress: Callable[[int, int], None] = lambda _, __: None) -> NDArray[np.float64]:
+        """The bank float64[B, 2, N]: made by the first that asks while others wait."""
+        shape = (self._size(count), 2, count)
+        key = f"{self._name} bluenoise={VERSION} sets={shape[0]} count={count}"
+        with _lock:
+            if key not in _banks:
+                name = f"{self._name.partition(' ')[0]}-{count}"
+                _banks[key] = cached_array(name, key, lambda: self._make_bank(shape, progress), _is_bank(shape))
+                if len(_banks) > _MOST_BANKS:
+                    _banks.popitem(last=False)
+            _banks.move_to_end(key)
+            return _banks[key]
+
+    def _make_bank(self, shape: tuple[int, int, int], progress: Callable[[int, int], None]) -> NDArray[np.float64]:
+        sets = np.empty(shape)
+        realizations = Realizations.of_trials(0, shape[0], _SEED)
+        progress(0, shape[0])
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            jobs = [pool.submit(self.make, sets[k : k + 1], realizations[k : k + 1]) for k in range(shape[0])]
+            try:
+                for done, job in enumerate(as_completed(jobs), 1):
+                    job.result()
+                    progress(done, shape[0])
+            except BaseException:
+                pool.shutdown(wait=False, cancel_futures=True)
+                raise
+        return sets
+
+
+def _is_bank(shape: tuple[int, ...]) -> Callable[[NDArray[np.float64]], bool]:
+    return lambda sets: bool(
+        sets.shape == shape and sets.dtype == np.float64 and sets.min() >= 0.0 and sets.max() < 1.0
+    )

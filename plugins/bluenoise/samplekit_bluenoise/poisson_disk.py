@@ -1,0 +1,52 @@
+"""Poisson-disk sampling: random points that keep a distance, by dart throwing or by sample elimination."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from samplekit import MinimumDistance, UsageError
+from samplekit_bluenoise import DEFAULT_RADIUS
+from samplekit_bluenoise.bank import WholeSets
+from samplekit_bluenoise.darts import MOST_ATTEMPTS, cells_per_axis, throw_darts
+from samplekit_bluenoise.elimination import eliminate
+from samplekit_bluenoise.torus import packing_distance
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from samplekit import Realizations, SamplerSpec
+
+_MARGIN = 1e-9
+"""By so much, relatively, darts keep farther apart than promised: other ways to compute distances round otherwise."""
+
+
+class PoissonDisk(WholeSets):
+    """Darts keep ``radius`` times the distance of the densest packing; elimination reaches about 0.7 by itself."""
+
+    def __init__(self, radius: float, method: str, bank: int) -> None:
+        if method == "elimination" and radius != DEFAULT_RADIUS:
+            raise UsageError("poisson-disk: radius is for method=darts; elimination takes none, and reaches about 0.7")
+        super().__init__(f"poisson-disk method={method} radius={radius!r}", bank)
+        self._radius = radius
+        self._method = method
+
+    def make(self, sets: NDArray[np.float64], realizations: Realizations) -> None:
+        """Write whole sets; see :meth:`WholeSets.make`."""
+        if self._method == "elimination":
+            eliminate(sets, realizations.keys)
+            return
+        count = sets.shape[2]
+        distance = self._radius * packing_distance(count) * (1.0 + _MARGIN)
+        made = throw_darts(sets, realizations.keys, distance, cells_per_axis(count, distance))
+        if made < len(realizations):
+            raise UsageError(
+                f"poisson-disk:radius={self._radius}: random disks left no room for {count} points in {MOST_ATTEMPTS} "
+                "attempts: expected a smaller radius, or method=elimination"
+            )
+
+    def refine(self, spec: SamplerSpec) -> SamplerSpec:
+        """Darts promise their distance, elimination promises none."""
+        promises = (MinimumDistance(self._radius),) if self._method == "darts" else ()
+        return replace(spec, promises=promises)
