@@ -37,4 +37,18 @@ def samplekit_samplers() -> list[SamplerSpec]:
             promises=(MinimumDistance(DEFAULT_RADIUS),),
             fresh_options={"bank": 0},
         ),
+        SamplerSpec(
+            "lloyd",
+            "samplekit_bluenoise.lloyd:Lloyd",
+            "points relaxed to the centroids of their Voronoi cells",
+            reference="Lloyd 1982; McCool, Fiume 1992",
+            options=(
+                Option("steps", 10, "steps of relaxation", 0, 10_000),
+                Option("initial", "poisson-disk", "the points before", choices=("poisson-disk", "jittered", "random")),
+                _bank(64),
+            ),
+            dimensions=(2, 2),
+            largest_index=2**20 - 1,
+            fresh_options={"bank": 0},
+        ),
     ]
