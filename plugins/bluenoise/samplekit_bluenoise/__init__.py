@@ -51,4 +51,17 @@ def samplekit_samplers() -> list[SamplerSpec]:
             largest_index=2**20 - 1,
             fresh_options={"bank": 0},
         ),
+        SamplerSpec(
+            "ccvt",
+            "samplekit_bluenoise.ccvt:CapacityConstrained",
+            "capacity-constrained Voronoi tessellation: centroids of cells of equal area",
+            reference="Balzer, Schlömer, Deussen 2009",
+            options=(
+                Option("capacity", 0, "background points for each point; 0: 256, or 1024 below 64 points", 0, 2**16),
+                _bank(64),
+            ),
+            dimensions=(2, 2),
+            largest_index=2**16 - 1,
+            fresh_options={"bank": 0},
+        ),
     ]

@@ -1,0 +1,112 @@
+"""Territories: the first assignment of background points to sites, as many to each.
+
+The torus is cut open along two wavy lines, then cut in two by a straight line in a random direction, half of the sites
+on either side, and so on with each half. What is straight here lasts: sites settle in rows along it. Division along the
+axes ends on a square lattice, and a torus cut open along the sides of the square gave the two axes of the spectrum a
+third more power than the rest of its ring.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from samplekit.numerics.kernel import helper, kernel
+from samplekit.sampling.hashing import TWO_M32, hash_index, second_key, unit
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+_U64 = np.uint64
+_LOW = _U64(0xFFFFFFFF)
+_S32 = _U64(32)
+_DEEPEST = 64
+
+
+@helper
+def select(values: NDArray[np.float64], points: NDArray[np.float64], low: int, high: int, place: int) -> None:
+    """Reorder ``values`` and columns of ``points``, ``low`` to ``high`` - 1: least before ``place`` (Hoare 1961)."""
+    while high - low > 1:
+        pivot = values[(low + high) // 2]
+        i = low
+        j = high - 1
+        while i <= j:
+            while values[i] < pivot:
+                i += 1
+            while values[j] > pivot:
+                j -= 1
+            if i <= j:
+                values[i], values[j] = values[j], values[i]
+                points[0, i], points[0, j] = points[0, j], points[0, i]
+                points[1, i], points[1, j] = points[1, j], points[1, i]
+                i += 1
+                j -= 1
+        if place <= j:
+            high = j + 1
+        elif place >= i:
+            low = i
+        else:
+            return
+
+
+@helper
+def _wave(t: float) -> float:
+    """Much like a sine of period 1, from parabolas: a sine may differ between machines."""
+    t -= np.floor(t)
+    return 16.0 * t * (0.5 - t) if t < 0.5 else 16.0 * (t - 0.5) * (t - 1.0)
+
+
+@kernel("void(float64[:,::1], uint64)")
+def cut_open(points: NDArray[np.float64], key: np.uint64) -> None:
+    """Cut the torus open along two wavy lines: points of the square beyond a line move by 1, to the other side."""
+    second = second_key(key)
+    phase = np.empty(4)
+    for k in range(4):
+        phase[k] = unit(hash_index(key, second, _U64(k)))
+    for k in range(points.shape[1]):
+        x = points[0, k]
+        y = points[1, k]
+        points[0, k] = x - np.floor(x + 0.16 * _wave(y + phase[0]) + 0.08 * _wave(2.0 * y + phase[1]))
+        points[1, k] = y - np.floor(y + 0.16 * _wave(x + phase[2]) + 0.08 * _wave(2.0 * x + phase[3]))
+
+
+@kernel("void(float64[:,::1], int64, uint64)")
+def divide(points: NDArray[np.float64], sites: int, key: np.uint64) -> None:
+    """Reorder the background points float64[2, sites * capacity]: those of site s begin at s * capacity."""
+    capacity = points.shape[1] // sites
+    values = np.empty(points.shape[1])
+    # Parts of the square that wait to be cut: their first site and number of sites.
+    firsts = np.empty(_DEEPEST, np.int64)
+    sizes = np.empty(_DEEPEST, np.int64)
+    firsts[0] = 0
+    sizes[0] = sites
+    waiting = 1
+    second = second_key(key)
+    drawn = 0
+    while waiting > 0:
+        waiting -= 1
+        first = firsts[waiting]
+        size = sizes[waiting]
+        if size == 1:
+            continue
+        # A direction by rejection from the disk, without the sine and cosine that differ between machines.
+        a = b = 0.0
+        bits = _U64(0)
+        while not 0.01 < a * a + b * b <= 1.0:
+            bits = hash_index(key, second, _U64(drawn))
+            drawn += 1
+            a = np.float64(bits >> _S32) * TWO_M32 * 2.0 - 1.0
+            b = np.float64(bits & _LOW) * TWO_M32 * 2.0 - 1.0
+        low = first * capacity
+        high = (first + size) * capacity
+        for k in range(low, high):
+            values[k] = a * points[0, k] + b * points[1, k]
+        # Of an odd number either side may get one more.
+        half = (size + np.int64(bits & _U64(1))) // 2
+        select(values, points, low, high, low + half * capacity)
+        firsts[waiting] = first
+        sizes[waiting] = half
+        firsts[waiting + 1] = first + half
+        sizes[waiting + 1] = size - half
+        waiting += 2
