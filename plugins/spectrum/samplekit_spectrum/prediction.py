@@ -30,7 +30,7 @@ from samplekit_spectrum.expectation import Source, expectations
 from samplekit_spectrum.homogenized import homogenized, is_homogeneous
 from samplekit_spectrum.integrands import integrand_of
 from samplekit_spectrum.measurement import ZERO, Measurement, measure
-from samplekit_spectrum.regions import outer_power, reaches, regions
+from samplekit_spectrum.regions import axis, outer_power, reaches, regions, square
 
 if TYPE_CHECKING:
     from samplekit_spectrum.integrands.integrand import Integrand
@@ -232,15 +232,17 @@ def _trimmed(integrand: Integrand, chosen: list[Region], found: list[Moments]) -
         terms = region.weights * moments.mean
         if float(terms.sum()) < _NEGLIGIBLE * total:
             continue
-        if cube.dims == 1:
-            kept.append(region)
-            continue
         size = np.abs(cube.vectors(0, cube.half)).max(axis=1)
         by_size = np.bincount(size, terms)
         beyond = by_size.sum() - np.cumsum(by_size)
         needed = int(np.argmax(beyond <= _NEGLIGIBLE * total))
         needed = 2 ** max(math.ceil(math.log2(max(needed, 1))), 3)
-        kept.append(region if needed >= size.max() else regions(integrand, needed, 0)[0])
+        if needed >= cube.reach:
+            kept.append(region)
+        elif cube.dims == 2:
+            kept.append(square(integrand, needed))
+        else:
+            kept.append(axis(integrand, region.view.axes[0], region.inner, max(needed, region.inner + 1)))
     return kept or chosen
 
 
@@ -284,7 +286,10 @@ def _summed(
     level, largest = 1.0 / source.count, 1.0 / source.count
     bound = "proven"
     if not _at_most_white(source.sampler):
-        outer = [outer_power(region, moments.mean) for region, moments in zip(chosen, found, strict=True)]
+        arms = any(region.cube.dims == 1 for region in chosen)
+        outer = [
+            outer_power(region, moments.mean, off_axes=arms) for region, moments in zip(chosen, found, strict=True)
+        ]
         # The square comes first: beyond it is most of what is missing.
         level = next((power for power, _ in outer if math.isfinite(power)), level)
         # The power of a net or lattice returns to 1.

@@ -94,11 +94,17 @@ def reaches(count: int, *, fixed: bool) -> tuple[int, int]:
     return reach, min(max(16 * count, 2**12), LARGEST_AXIS)
 
 
-def outer_power(region: Region, mean: NDArray[np.float64]) -> tuple[float, float]:
-    """In the outer half of a region the power weighted with the integrand's, and the largest power."""
+def outer_power(region: Region, mean: NDArray[np.float64], *, off_axes: bool) -> tuple[float, float]:
+    """In the outer half of a region the power weighted with the integrand's, and the largest power.
+
+    ``off_axes``: other regions go on where a square's axes end, so that what is missing beyond it is off the axes,
+    where Latin samplers are brighter.
+    """
     cube = region.cube
-    vectors = np.abs(cube.vectors(0, cube.half)).max(axis=1)
-    outer = vectors > max(cube.reach // 2, region.inner)
+    vectors = np.abs(cube.vectors(0, cube.half))
+    outer = vectors.max(axis=1) > max(cube.reach // 2, region.inner)
+    if off_axes and cube.dims == 2:
+        outer &= vectors.min(axis=1) > 0
     weights = region.weights[outer]
     total = float(weights.sum())
     if total == 0.0:

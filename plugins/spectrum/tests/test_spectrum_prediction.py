@@ -85,6 +85,16 @@ def test_a_wrong_prediction_is_told():
     assert row.predicted.tail > 0.1 * row.predicted.variance
 
 
+def test_the_tail_beyond_a_square_is_off_the_axes():
+    """The axes are summed further, and are darker: a smaller square with its tail gives what a larger one sums."""
+    settings = {"trials": 4, "realizations": 200, "native": False}
+    small = predict("multi-jittered", "bilinear", 256, max_frequency=64, **settings).predicted
+    large = predict("multi-jittered", "bilinear", 256, max_frequency=256, **settings).predicted
+    assert small.tail > 2.0 * large.tail > 0.0
+    # The same sets: four standard errors are ample.
+    assert abs(small.variance - large.variance) < 4.0 * small.standard_error
+
+
 def test_wrong_use_is_one_clear_line():
     for settings in ({"trials": 1}, {"realizations": 0}, {"max_frequency": 0}, {"seed": -1}):
         with pytest.raises(UsageError):

@@ -92,6 +92,7 @@ def spectrum(
     from samplekit.sampling.configured import configured_sampler
     from samplekit_spectrum.cli.values import parse_positive, parse_projections, parse_vectors
     from samplekit_spectrum.frequencies import Listed
+    from samplekit_spectrum.homogenized import homogenized
     from samplekit_spectrum.output import check_stem, endings, write_spectra
     from samplekit_spectrum.spectrum import powers
     from samplekit_spectrum.tables import spectrum_json, spectrum_lines
@@ -103,9 +104,8 @@ def spectrum(
     white = parse_positive(scale, "scale") if scale else None
     chosen = configured_sampler(sampler)
     width = len(projects[0]) if projects[0] is not None else size or 2
-    stem = check_stem(
-        output, f"spectrum-{chosen.text}-{number}", endings(width, len(projects), listed=listed is not None)
-    )
+    name = homogenized(chosen).text if homogenize else chosen.text
+    stem = check_stem(output, f"spectrum-{name}-{number}", endings(width, len(projects), listed=listed is not None))
     began = time.perf_counter()
     with Progress("spectra") as progress:
         spectra = powers(
