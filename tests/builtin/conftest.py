@@ -15,6 +15,16 @@ def _exact_cells(x, cells):
     return found
 
 
+def _rounded_cells(x, cells):
+    """The cells between edges i / cells rounded to float64: where unscrambled fractions such as 1/3 lie on an edge."""
+    return np.searchsorted(np.arange(cells + 1) / cells, x, side="right") - 1
+
+
 @pytest.fixture
 def exact_cells():
     return _exact_cells
+
+
+@pytest.fixture
+def rounded_cells():
+    return _rounded_cells

@@ -1,7 +1,7 @@
 """Every stratum that a sampler declares holds its one point, in rational arithmetic.
 
-For counts that are no powers of 2 a coordinate of Hammersley's i / N is the float64 nearest to a stratum's edge: those
-are tested against exact fractions in test_radical_inverses.
+Hammersley's i / N lies on a stratum's edge, which is no float64 unless N is a power of 2: the edge is then the float64
+nearest to it, as the point is.
 """
 
 import math
@@ -89,6 +89,11 @@ def test_hammersleys_first_dimension_has_strata(name, power, exact_cells):
     count = 2**power
     points = samplekit.points(name, count, 3, realizations=5, seed=power)
     assert_once(exact_cells(points[:, :, 0], count), count)
+
+
+@pytest.mark.parametrize("count", [1, 3, 7, 49, 97, 100, 1000, 1999, 3001])
+def test_hammersleys_first_dimension_has_strata_for_any_count(count, rounded_cells):
+    assert_once(rounded_cells(samplekit.points("hammersley", count)[:, :, 0], count), count)
 
 
 @pytest.mark.parametrize("power", [0, 1, 5, 10, 12])

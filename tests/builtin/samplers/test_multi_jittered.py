@@ -55,6 +55,7 @@ def test_sub_columns_and_sub_rows_are_independent():
     sub_columns, sub_rows = lines("multi-jittered", 8, 8, 20000, seed=2)
     for first, second in (
         (sub_columns[:, 2, 3], sub_rows[:, 2, 3]),
+        (sub_columns[:, 3, 3], sub_rows[:, 3, 3]),
         (sub_columns[:, 0, 0], sub_columns[:, 0, 1]),
         (sub_columns[:, 0, 0], sub_columns[:, 5, 7]),
     ):
