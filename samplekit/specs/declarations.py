@@ -67,6 +67,11 @@ class _Spec:
                 f"{self.name}: cannot import {self.target}: {type(error).__name__}: {error}"
             ) from error
 
+    @property
+    def required_options(self) -> tuple[str, ...]:
+        """Names of the options without which there is none of these: a file's path, say."""
+        return tuple(option.name for option in self.options if option.required)
+
     def parse_options(self, given: Mapping[str, object]) -> dict[str, OptionValue]:
         """All options with their values: those given, parsed, and the defaults of the rest.
 
