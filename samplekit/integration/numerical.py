@@ -8,6 +8,7 @@ nodes (33 in a pixel, which is never taken wider than 1/64) stays unseen.
 from __future__ import annotations
 
 import itertools
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -26,8 +27,11 @@ if TYPE_CHECKING:
 TOLERANCE = 1e-6
 """What the adaptive rule aims at in each pixel. Pixels with an edge use up all evaluations before."""
 EVALUATIONS = 2**25
-"""Values that one reference may take: some seconds."""
-_NODES = {0: (1, 1), 1: (12, 16), 2: (8, 12), 3: (5, 7), 4: (3, 4)}
+"""Values that a reference may take in two dimensions: some seconds."""
+MORE_EVALUATIONS = 2**26
+"""The same in more than two."""
+_ORDERS = (16, 12, 8, 6, 5, 4, 3)
+_LEAST_PER_PIXEL = 13
 _LARGEST_CELL = 1.0 / 64.0
 _POINTS_AT_ONCE = 2**17
 
@@ -64,30 +68,29 @@ def numerical_means(scene: Scene, x_edges: Array, y_edges: Array) -> Reference:
     Raises
     ------
     UsageError
-        More than four dimensions beside the pixel's.
+        With so many pixels and dimensions it would take too long.
     """
     known = scene.constant(x_edges, y_edges)
-    rough, fine = _rules(scene)
-    size = max(1, fine[0].shape[1])
+    pixels = int(np.count_nonzero(np.isnan(known)))
+    rough, fine = _rules(scene, pixels * _LEAST_PER_PIXEL)
+    plane = fine[1].size == 1
     means, errors = pixel_means(
         lambda points: _means(scene, points, *fine),
         x_edges,
         y_edges,
         known=known,
-        largest=_LARGEST_CELL,
-        borders=True,
+        largest=_LARGEST_CELL if plane else math.inf,
+        orders=(3, 5) if plane else (2, 3),
+        borders=plane,
         tolerance=TOLERANCE,
-        evaluations=EVALUATIONS // size,
+        evaluations=EVALUATIONS if plane else MORE_EVALUATIONS // fine[1].size,
     )
-    if fine[0].shape[0]:
-        # Over the other dimensions the two rules are compared at the pixel's corners and its centre.
-        column, row = np.meshgrid(np.arange(x_edges.size - 1), np.arange(y_edges.size - 1))
-        for across, down in itertools.product((0.0, 1.0 - 2.0**-53), (0.0, 1.0 - 2.0**-53)):
-            x = x_edges[:-1] + np.diff(x_edges) * across
-            y = y_edges[:-1] + np.diff(y_edges) * down
-            points = np.array([x[column.ravel()], y[row.ravel()]])
-            difference = np.abs(_means(scene, points, *fine) - _means(scene, points, *rough)).reshape(errors.shape)
-            errors += np.where(np.isnan(known), 0.25 * difference, 0.0)
+    if not plane:
+        # Over the other dimensions the two rules are compared at the centre of each pixel.
+        x, y = x_edges[:-1] + 0.5 * np.diff(x_edges), y_edges[:-1] + 0.5 * np.diff(y_edges)
+        row, column = np.nonzero(np.isnan(known))
+        points = np.array([x[column], y[row]])
+        errors[row, column] += np.abs(_means(scene, points, *fine) - _means(scene, points, *rough))
     return Reference(means, float(errors.max()), numerical=True)
 
 
@@ -97,25 +100,31 @@ def numerical_means_at(scene: Scene, x: Array, y: Array) -> Reference:
     Raises
     ------
     UsageError
-        More than four dimensions beside the pixel's.
+        With so many pixels and dimensions it would take too long.
     """
     points = np.array([np.tile(x, y.size), np.repeat(y, x.size)])
-    rough, fine = (_means(scene, points, *rule) for rule in _rules(scene))
+    rough, fine = (_means(scene, points, *rule) for rule in _rules(scene, points.shape[1]))
     return Reference(fine.reshape(y.size, x.size), float(np.abs(fine - rough).max()), numerical=True)
 
 
-def _rules(scene: Scene) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
-    """Tensor Gauss rules over [0, 1)^d for the d dimensions beside the pixel's: nodes float64[d, Q], weights [Q]."""
+def _rules(scene: Scene, points: int) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+    """Two tensor Gauss rules over [0, 1)^d for the d dimensions beside the pixel's: nodes float64[d, Q], weights [Q].
+
+    As fine as may be for so many points of the picture.
+    """
     dims = sum(scene.dimensions().values()) - 2
-    if dims not in _NODES:
-        raise UsageError(f"{type(scene).__name__} gives no reference, and {dims + 2} dimensions are too many for one")
-    rough, fine = (_tensor(order, dims) for order in _NODES[dims])
-    return rough, fine
+    for order in _ORDERS:
+        if points * order**dims <= MORE_EVALUATIONS:
+            return _tensor(order - 1, dims), _tensor(order, dims)
+    raise UsageError(
+        f"{type(scene).__name__} gives no reference of its own, and one in {dims + 2} dimensions takes too long over"
+        " so many pixels: leave the error out (--no-error), or render less (--size, --crop)"
+    )
 
 
 def _tensor(order: int, dims: int) -> tuple[Array, Array]:
     nodes, weights = np.polynomial.legendre.leggauss(order)
-    grid = np.array(list(itertools.product(0.5 + 0.5 * nodes, repeat=dims))).reshape(-1, dims)
+    grid = np.array(list(itertools.product(0.5 + 0.5 * nodes, repeat=dims))).reshape(order**dims, dims)
     shares = np.array([np.prod(share) for share in itertools.product(0.5 * weights, repeat=dims)])
     return np.ascontiguousarray(grid.T), shares
 
