@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from samplekit.conformance.subject import Recipe, Subject
 
 _SECONDS = 120.0
-_EXTREME_SECONDS = 20.0
+_EXTREME_SECONDS = 60.0
 EXTREME_COUNTS = (1, 2, 3, 7, 16, 64, 97, 100)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from samplekit.conformance.declared import dims_of
 from samplekit.conformance.elsewhere import forced_extremes
 from samplekit.conformance.result import CheckFailed, CounterExample, check
-from samplekit.errors import UsageError
+from samplekit.errors import SamplekitError, UsageError
 from samplekit.sampling.realizations import Realizations
 
 if TYPE_CHECKING:
@@ -105,6 +105,10 @@ def _judge_guarded(subject: Subject, count: int, dims: int) -> None:
         subject.sampler.fill(out, Realizations.of_trials(0, 2, 0), count, 0)
     except UsageError as error:
         raise CheckFailed(f"refuses what it declares: {error}", CounterExample(subject.text, count, dims)) from None
+    except SamplekitError as error:
+        # What the framework finds wrong with the values is judged below.
+        if error.__cause__ is not None:
+            raise CheckFailed(str(error), CounterExample(subject.text, count, dims)) from None
     subject.drawn += 2 * count
     if not np.isfinite(out).all():
         row, _, point = (int(i) for i in np.argwhere(~np.isfinite(out))[0])

@@ -1,0 +1,35 @@
+"""Scenes are held to their references, constants and dimensions; broken ones are caught."""
+
+import numpy as np
+import pytest
+from broken_scenes import SPECS
+
+from samplekit.conformance import check_scene
+from samplekit.conformance.result import broken
+from samplekit.registry import BUILTIN, registry
+
+NAMES = [name for name, offer in registry().all("scene").items() if offer.plugin.name == BUILTIN]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_our_scenes_conform(name):
+    outcomes = check_scene(name, quick=True)
+    assert not broken(outcomes), [(each.check, each.message) for each in broken(outcomes)]
+
+
+@pytest.mark.parametrize(("spec", "check"), SPECS, ids=lambda each: getattr(each, "name", each))
+def test_a_broken_scene_is_caught(spec, check):
+    outcome = next(each for each in check_scene(spec, quick=True) if each.check == check)
+    assert outcome.status == "failed", outcome
+    assert not outcome.message.startswith("raised"), outcome.message
+
+
+def test_the_quadrature_is_right():
+    """Its own error, against integrals in closed form: smooth to 1e-10, a disk within what it says."""
+    from samplekit.conformance.scenes import SceneSubject, _quadrature
+
+    box = np.array([0.25, 0.5, 0.125, 0.25])
+    mean, tolerance = _quadrature(SceneSubject("bilinear"), box, 100)
+    assert abs(mean - 0.5 * 0.25) <= tolerance <= 1e-10
+    mean, tolerance = _quadrature(SceneSubject("disk:radius=0.4,cx=0.5,cy=0.5"), np.array([0.0, 1.0, 0.0, 1.0]), 100)
+    assert abs(mean - np.pi * 0.16) <= tolerance < 5e-3
