@@ -197,11 +197,11 @@ class Subject:
         The ladder keeps results comparable: two machines differ only where one is four times slower. Time is the
         processor's, so that a busy machine judges as an idle one does.
         """
-        probe = Realizations.of_trials(0, 8, 0)
-        self.fill(probe, count, dims)
-        began = time.process_time()
-        self.fill(probe, count, dims)
-        seconds = (time.process_time() - began) / 8
+        self.fill(Realizations.of_trials(0, 1, 0), count, dims)
+        seconds = self._seconds_a_set(8, count, dims)
+        if seconds < 1e-3:
+            # So few sets measure what a call costs, not a set.
+            seconds = self._seconds_a_set(256, count, dims)
         budget = _SECONDS_A_QUICK_REQUEST if self.quick else _SECONDS_A_REQUEST
         realizations = wanted
         while realizations // 4 >= least and realizations * seconds > budget:
@@ -209,6 +209,11 @@ class Subject:
         if realizations < wanted:
             self.note(f"slow sampler: {realizations} realisations of {count} points in place of {wanted}")
         return realizations
+
+    def _seconds_a_set(self, sets: int, count: int, dims: int) -> float:
+        began = time.process_time()
+        self.fill(Realizations.of_trials(0, sets, 0), count, dims)
+        return (time.process_time() - began) / sets
 
     def note(self, text: str) -> None:
         """What a reader should know of how the judgement was made."""
