@@ -84,17 +84,17 @@ def _figure(example: CounterExample) -> str:
     svg = "".join(svg_text(picture, {})).partition("?>\n")[2]
     panel = picture.panels[0]
     ring = 'fill="none" stroke="#1f5fbf" stroke-width="2"'
-    first = example.indices[0] - _offset(example) if example.indices else 0
+    start = _first_index(example) if example.indices else 0
     circles = ""
     for index in example.indices[:64]:
-        row = index - (example.indices[0] - first)
+        row = index - start
         if 0 <= row < len(drawn) and len(panel.axes) == 2:
             x, y = panel.left + drawn[row, 0] * panel.width, panel.top + drawn[row, 1] * panel.height
             circles += f'<circle cx="{x:.2f}" cy="{y:.2f}" r="9" {ring}/>'
     return f"<figure>{svg.replace('</svg>', circles + '</svg>')}</figure>"
 
 
-def _offset(example: CounterExample) -> int:
+def _first_index(example: CounterExample) -> int:
     """Index of the first point that was kept: a slice of a larger set starts later."""
     assert example.points is not None
     for row, place in enumerate(example.points):
