@@ -96,7 +96,7 @@ def test_the_same_command_writes_the_same_bytes(command, tmp_path, monkeypatch):
 
 
 def test_the_command_in_the_file_makes_the_file_again(command, tmp_path):
-    arguments = ("--scene", "zoneplate:k=50,cx=0.5", "--sampler", "random", "--spp", "3", "--size", "30x20")
+    arguments = ("--scene", "disk:radius=0.25,cx=0.5", "--sampler", "random", "--spp", "3", "--size", "30x20")
     assert command("render", *arguments, "--crop", "3,4,20,10", "--seed", "7", "--full", "-o", "a.exr").status == 0
     first = contents(tmp_path)
     program, name, *again = shlex.split(read_info(tmp_path / "a.exr")["metadata"]["command"])
