@@ -1,0 +1,36 @@
+"""The functions of the package: their examples, and that importing it is light."""
+
+import doctest
+import subprocess
+import sys
+
+import pytest
+
+import samplekit
+import samplekit.api
+
+
+def test_the_examples_in_the_docstrings():
+    failed, run = doctest.testmod(samplekit.api)
+    assert run > 5
+    assert failed == 0
+
+
+def test_importing_samplekit_imports_no_numpy():
+    code = "import sys, samplekit; sys.exit('numpy' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+@pytest.mark.parametrize("name", samplekit.__all__)
+def test_every_public_name_is_there_and_documented(name):
+    assert getattr(samplekit, name).__doc__
+
+
+def test_a_name_that_is_not_there():
+    with pytest.raises(AttributeError, match="no attribute 'nonsense'"):
+        samplekit.nonsense  # noqa: B018
+
+
+def test_every_installed_plugin_is_whole():
+    for plugin in samplekit.plugins():
+        assert plugin.problems == []
