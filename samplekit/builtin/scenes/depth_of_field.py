@@ -41,18 +41,22 @@ LARGEST_CONFUSION = 1e12
 """Largest circle of confusion, in widths of the picture: far beyond it places lose all their digits."""
 LARGEST_CELL = 1.0 / 64.0
 """Pixels are divided into cells of at most this side before the reference looks for what varies."""
-_SLACK = 1e-12  # relative: places p + c l are rounded three times, each time by 2^-53
 
 
 @kernel(
     "void(float64[:,:,::1], float64[:,::1], float64[::1], float64[:,::1], float64[::1], float64[::1], float64[::1])"
 )
 def _sums(tile: Array, boxes: Array, out: Array, front: Array, ring: Array, wall: Array, confusion: Array) -> None:
-    """Paint from back to front, layer after layer: each pass over the samples becomes vector instructions."""
+    """Paint from back to front, layer after layer: each pass over the samples becomes vector instructions.
+
+    For that all that a pass needs but the samples is in local variables: an array might be changed by what it writes.
+    """
     pixels, dims, count = tile.shape
     x, y, lens_x, lens_y, values = np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK)
-    per_cell, cells = 1.0 / wall[1], wall[2]
-    inner, outer = ring[2] * ring[2], ring[3] * ring[3]
+    first, per_cell, cells, even, odd, beyond = wall[0], 1.0 / wall[1], wall[2], wall[3], wall[4], wall[5]
+    ring_x, ring_y, inner, outer, ring_value = ring[0], ring[1], ring[2] * ring[2], ring[3] * ring[3], ring[4]
+    front_coc, ring_coc, wall_coc = confusion[0], confusion[1], confusion[2]
+    lens_x[:], lens_y[:] = 0.0, 0.0
     for pixel in range(pixels):
         left, width, top, height = boxes[0, pixel], boxes[1, pixel], boxes[2, pixel], boxes[3, pixel]
         for i in range(count):
@@ -61,73 +65,25 @@ def _sums(tile: Array, boxes: Array, out: Array, front: Array, ring: Array, wall
         if dims == 4:
             for i in range(count):
                 lens_x[i], lens_y[i] = disk_point(tile[pixel, 2, i], tile[pixel, 3, i])
-        else:
-            for i in range(count):
-                lens_x[i] = lens_y[i] = 0.0
         for i in range(count):
-            column = np.floor((fma(confusion[2], lens_x[i], x[i]) - wall[0]) * per_cell)
-            row = np.floor((fma(confusion[2], lens_y[i], y[i]) - wall[0]) * per_cell)
+            column = np.floor((fma(wall_coc, lens_x[i], x[i]) - first) * per_cell)
+            row = np.floor((fma(wall_coc, lens_y[i], y[i]) - first) * per_cell)
             half = 0.5 * (column + row)
-            value = wall[3] if half == np.floor(half) else wall[4]
+            value = even if half == np.floor(half) else odd
             within = (column >= 0.0) & (column < cells) & (row >= 0.0) & (row < cells)
-            values[i] = value if within else wall[5]
+            values[i] = value if within else beyond
         for i in range(count):
-            dx = fma(confusion[1], lens_x[i], x[i]) - ring[0]
-            dy = fma(confusion[1], lens_y[i], y[i]) - ring[1]
+            dx = fma(ring_coc, lens_x[i], x[i]) - ring_x
+            dy = fma(ring_coc, lens_y[i], y[i]) - ring_y
             squared = fma(dx, dx, dy * dy)
-            values[i] = ring[4] if (squared >= inner) & (squared < outer) else values[i]
+            values[i] = ring_value if (squared >= inner) & (squared < outer) else values[i]
         for k in range(front.shape[0]):
-            limit = front[k, 2] * front[k, 2]
+            disk_x, disk_y, limit, disk_value = front[k, 0], front[k, 1], front[k, 2] * front[k, 2], front[k, 3]
             for i in range(count):
-                dx = fma(confusion[0], lens_x[i], x[i]) - front[k, 0]
-                dy = fma(confusion[0], lens_y[i], y[i]) - front[k, 1]
-                values[i] = front[k, 3] if fma(dx, dx, dy * dy) < limit else values[i]
+                dx = fma(front_coc, lens_x[i], x[i]) - disk_x
+                dy = fma(front_coc, lens_y[i], y[i]) - disk_y
+                values[i] = disk_value if fma(dx, dx, dy * dy) < limit else values[i]
         out[pixel] = lane_sum(values, count)
-
-
-@kernel("int64(float64, float64, float64, float64, float64, float64, float64, float64)")
-def _side(x0: float, x1: float, y0: float, y1: float, cx: float, cy: float, radius: float, reach: float) -> int:
-    """Return 1 if a box, moved by up to ``reach``, stays in a disk, -1 if it stays out, 0 if neither is proven."""
-    slack = _SLACK * (1.0 + reach)
-    near_x, near_y = max(x0 - cx, cx - x1, 0.0), max(y0 - cy, cy - y1, 0.0)
-    far_x, far_y = max(abs(x0 - cx), abs(x1 - cx)), max(abs(y0 - cy), abs(y1 - cy))
-    if math.sqrt(far_x * far_x + far_y * far_y) + reach + slack < radius:
-        return 1
-    return -1 if math.sqrt(near_x * near_x + near_y * near_y) - reach - slack > radius else 0
-
-
-@kernel("void(float64[::1], float64[::1], float64[:,::1], float64[::1], float64[::1], float64[::1], float64[:,::1])")
-def _constant(x: Array, y: Array, front: Array, ring: Array, wall: Array, confusion: Array, out: Array) -> None:
-    """Go from front to back until a layer fills the pixel for all lens points, or shows but in part."""
-    reach = np.abs(confusion)
-    slack = _SLACK * (1.0 + reach[2])
-    for j in range(out.shape[0]):
-        for i in range(out.shape[1]):
-            out[j, i] = np.nan
-            x0, x1, y0, y1 = x[i], x[i + 1], y[j], y[j + 1]
-            hidden = False
-            for k in range(front.shape[0]):
-                side = _side(x0, x1, y0, y1, front[k, 0], front[k, 1], front[k, 2], reach[0])
-                if side == 1:
-                    out[j, i] = front[k, 3]
-                hidden |= side != -1
-            if hidden:
-                continue
-            inner = _side(x0, x1, y0, y1, ring[0], ring[1], ring[2], reach[1])
-            outer = _side(x0, x1, y0, y1, ring[0], ring[1], ring[3], reach[1])
-            if inner == -1 and outer == 1:
-                out[j, i] = ring[4]
-            if inner != 1 and outer != -1:
-                continue
-            column = np.floor((x0 - reach[2] - slack - wall[0]) / wall[1])
-            row = np.floor((y0 - reach[2] - slack - wall[0]) / wall[1])
-            last_column = np.floor((x1 + reach[2] + slack - wall[0]) / wall[1])
-            last_row = np.floor((y1 + reach[2] + slack - wall[0]) / wall[1])
-            if min(last_column, last_row) < 0.0 or max(column, row) >= wall[2]:
-                out[j, i] = wall[5]
-            elif column == last_column and row == last_row:
-                even = 0.5 * (column + row) == np.floor(0.5 * (column + row))
-                out[j, i] = wall[3] if even else wall[4]
 
 
 class DepthOfField(Scene):
@@ -175,9 +131,11 @@ class DepthOfField(Scene):
 
     def constant(self, x_edges: Array, y_edges: Array) -> Array:
         """Find the pixels in which every ray, from every point of the lens, meets one value; NaN elsewhere."""
+        from samplekit.builtin.scenes.depth_of_field_bounds import constant_pixels
+
         out = np.empty((y_edges.size - 1, x_edges.size - 1))
         x, y = np.ascontiguousarray(x_edges, np.float64), np.ascontiguousarray(y_edges, np.float64)
-        _constant(x, y, FRONT, RING, WALL, self.confusion, out)
+        constant_pixels(x, y, FRONT, RING, WALL, self.confusion, out)
         return out
 
     def exact(self, x_edges: Array, y_edges: Array) -> Array:
