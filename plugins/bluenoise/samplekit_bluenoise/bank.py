@@ -28,8 +28,8 @@ if TYPE_CHECKING:
 
 VERSION = 1
 """Part of a bank's key: to be raised when any sampler here gives other points."""
-MOST_POINTS = 2**22
-"""A bank holds no more points than this, 64 MB: beyond 65 536 points a bank of 64 sets becomes one of fewer."""
+MOST_POINTS = 2**20
+"""A bank holds no more points than this, 16 MB: beyond 16 384 points a bank of 64 sets becomes one of fewer."""
 
 _U64 = np.uint64
 _PLACE = _U64(0x510E527FADE682D1)
@@ -116,8 +116,8 @@ class WholeSets(Sampler):
 
     @property
     def streams(self) -> bool:
-        """A part of a set from the bank costs a part of the whole; a fresh one is made whole."""
-        return self._bank > 0
+        """Sets are made whole, even for a part of one."""
+        return False
 
     def _size(self, count: int) -> int:
         return max(1, min(self._bank, MOST_POINTS // count))

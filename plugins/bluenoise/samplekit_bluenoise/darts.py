@@ -33,7 +33,7 @@ _U64 = np.uint64
 _LOW = _U64(0xFFFFFFFF)
 _S32 = _U64(32)
 
-MOST_ATTEMPTS = 1000
+MOST_ATTEMPTS = 100
 """Sets begun for one realisation before giving up."""
 _MISSES_ANYWHERE = 14.0
 """Failed darts for each cell of the grid before the list is made, and ..."""
@@ -62,6 +62,12 @@ def cells_per_axis(count: int, distance: float) -> int:
 
 
 @helper
+def _wrapped(difference: np.int64) -> np.float64:
+    """The shortest of the differences that are equal modulo 2^32."""
+    return np.float64(((difference + 2**31) & 0xFFFFFFFF) - 2**31)
+
+
+@helper
 def _around(cell: np.int64, step: np.int64, side: int) -> np.int64:
     """The cell ``step`` cells on along an axis of the torus, -1 <= step <= 1."""
     moved = cell + step
@@ -75,7 +81,7 @@ def _is_free(
     column: np.int64,
     row: np.int64,
     least: float,
-    points: NDArray[np.int32],
+    points: NDArray[np.uint32],
     head: NDArray[np.int32],
     following: NDArray[np.int32],
 ) -> bool:
@@ -86,8 +92,8 @@ def _is_free(
         j = _around(row, _NEAR[k, 1], side)
         p = head[j, i]
         while p >= 0:
-            dx = np.float64(np.int32(x - points[p, 0]))
-            dy = np.float64(np.int32(y - points[p, 1]))
+            dx = _wrapped(x - points[p, 0])
+            dy = _wrapped(y - points[p, 1])
             if dx * dx + dy * dy < least:
                 return False
             p = following[p]
@@ -101,7 +107,7 @@ def _keep(
     y: np.int64,
     column: np.int64,
     row: np.int64,
-    points: NDArray[np.int32],
+    points: NDArray[np.uint32],
     head: NDArray[np.int32],
     following: NDArray[np.int32],
 ) -> int:
@@ -120,7 +126,7 @@ def _split(
     splits: int,
     width: float,
     least: float,
-    points: NDArray[np.int32],
+    points: NDArray[np.uint32],
     head: NDArray[np.int32],
     following: NDArray[np.int32],
     cells: NDArray[np.int64],
@@ -141,8 +147,8 @@ def _split(
         while p >= 0:
             # A quarter is covered if its farthest corner is. Across the torus these distances come out too large,
             # which only leaves a covered quarter in the list.
-            dx = np.float64(np.int32(points[p, 0] - x))
-            dy = np.float64(np.int32(points[p, 1] - y))
+            dx = _wrapped(points[p, 0] - x)
+            dy = _wrapped(points[p, 1] - y)
             left = max(abs(dx), abs(dx + width)) ** 2
             right = max(abs(dx), abs(dx - width)) ** 2
             upper = max(abs(dy), abs(dy + width)) ** 2
@@ -182,7 +188,7 @@ def throw_darts(out: NDArray[np.float64], keys: NDArray[np.uint64], distance: fl
     least = (distance * _ONE) ** 2
     head = np.empty((side, side), np.int32)
     following = np.empty(count, np.int32)
-    points = np.empty((count, 2), np.int32)
+    points = np.empty((count, 2), np.uint32)
     handful = np.empty((_HANDFUL, 3), np.int64)
     for r in range(realizations):
         placed = 0
@@ -236,7 +242,8 @@ def throw_darts(out: NDArray[np.float64], keys: NDArray[np.uint64], distance: fl
                         placed = _keep(placed, x, y, column, row, points, head, following)
                     else:
                         misses += 1
-                if placed == count or active == 0 or splits == _SPLITS:
+                # The list does not grow past its first size unless the random numbers are none.
+                if placed == count or active == 0 or active > 4 * side * side or splits == _SPLITS:
                     break
                 width *= 0.5
                 quarters = np.empty(4 * active, np.int64)
@@ -253,5 +260,5 @@ def throw_darts(out: NDArray[np.float64], keys: NDArray[np.uint64], distance: fl
             return r
         for d in range(2):
             for i in range(count):
-                out[r, d, i] = np.float64(np.int64(points[i, d]) & _COLUMN) * TWO_M32
+                out[r, d, i] = points[i, d] * TWO_M32
     return int(realizations)

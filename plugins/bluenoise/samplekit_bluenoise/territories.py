@@ -13,14 +13,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit.numerics.kernel import helper, kernel
-from samplekit.sampling.hashing import TWO_M32, hash_index, second_key, unit
+from samplekit.sampling.hashing import hash_index, second_key, unit
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _U64 = np.uint64
-_LOW = _U64(0xFFFFFFFF)
-_S32 = _U64(32)
 _DEEPEST = 64
 
 
@@ -90,14 +88,11 @@ def divide(points: NDArray[np.float64], sites: int, key: np.uint64) -> None:
         size = sizes[waiting]
         if size == 1:
             continue
-        # A direction by rejection from the disk, without the sine and cosine that differ between machines.
-        a = b = 0.0
-        bits = _U64(0)
-        while not 0.01 < a * a + b * b <= 1.0:
-            bits = hash_index(key, second, _U64(drawn))
-            drawn += 1
-            a = np.float64(bits >> _S32) * TWO_M32 * 2.0 - 1.0
-            b = np.float64(bits & _LOW) * TWO_M32 * 2.0 - 1.0
+        bits = hash_index(key, second, _U64(drawn))
+        drawn += 1
+        angle = unit(bits)
+        a = _wave(angle + 0.25)
+        b = _wave(angle)
         low = first * capacity
         high = (first + size) * capacity
         for k in range(low, high):

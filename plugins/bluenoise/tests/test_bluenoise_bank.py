@@ -219,7 +219,7 @@ def test_preparing_reports_its_progress_and_changes_no_point(cache_folder):
 
 def test_notes_say_that_sets_are_shared():
     assert samplekit.sampler("ccvt").notes(16, 2) == ["one of 64 sets of 16 points, under a random shift and symmetry"]
-    assert samplekit.sampler("lloyd:bank=8").notes(2**20, 2)[0].startswith("one of 4 sets of 1048576 points")
+    assert samplekit.sampler("lloyd").notes(2**18, 2)[0].startswith("one of 4 sets of 262144 points")
     assert samplekit.sampler("poisson-disk").notes(16, 2) == []
 
 
