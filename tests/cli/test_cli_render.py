@@ -259,6 +259,27 @@ def test_a_plugin_renders_as_ours_do(command, plugins, tmp_path):
     assert metadata["sampler_plugin"] == "toys (toys-distribution 1.0)"
 
 
+def test_a_scene_needs_no_more_than_its_value(command, plugins, tmp_path):
+    plugins.offer("toys", "scene", 'SceneSpec("ramp", "toy_scene:Ramp", "")')
+    plugins.module(
+        "toy_scene",
+        """
+        from samplekit import Scene
+
+        class Ramp(Scene):
+            def value(self, points):
+                return points[0]
+        """,
+    )
+    report = command("render", "--scene", "ramp", "--sampler", "regular", "--spp", "4", "--size", "8", "--json").report
+    # The centres of a grid integrate a ramp without error, and so does a quadrature.
+    assert report["max_error"] < 1e-12
+    assert report["reference"]
+    report = command("render", *SMALL, "--scene", "ramp", "--no-error", "--json").report
+    assert len(report["files"]) == 2
+    assert report["seconds"]["reference"] == 0
+
+
 @pytest.mark.parametrize(
     ("body", "reason"),
     [
