@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from samplekit.integration.numerical import Reference
+    from samplekit.integration.reference import Reference
     from samplekit.integration.scene import Scene
     from samplekit.specs import SceneSpec
 
@@ -85,16 +85,20 @@ class ConfiguredScene:
 
     def reference(self, x_edges: NDArray[np.float64], y_edges: NDArray[np.float64]) -> Reference:
         """The mean over each pixel, or at its centre, and how exact it is."""
-        from samplekit.integration.numerical import Reference, numerical_means, numerical_means_at
+        from samplekit.integration.reference import Reference
         from samplekit.integration.scene import Scene
 
         scene, what = self._scene, "give its reference"
         if self.at_centre:
             x, y = _centres(x_edges), _centres(y_edges)
             if type(scene).exact_at is Scene.exact_at:
+                from samplekit.integration.numerical import numerical_means_at
+
                 return self._guarded(what, lambda: numerical_means_at(scene, x, y))
             return Reference(self._image(what, lambda: scene.exact_at(x, y), x_edges, y_edges))
         if type(scene).exact is Scene.exact:
+            from samplekit.integration.numerical import numerical_means
+
             return self._guarded(what, lambda: numerical_means(scene, x_edges, y_edges))
         image = self._image(what, lambda: scene.exact(x_edges, y_edges), x_edges, y_edges)
         return Reference(image, scene.reference_error)

@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import itertools
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from samplekit.errors import UsageError
 from samplekit.integration.pixel_means import pixel_means
+from samplekit.integration.reference import Reference
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -34,32 +34,6 @@ _ORDERS = (16, 12, 8, 6, 5, 4, 3)
 _LEAST_PER_PIXEL = 13
 _LARGEST_CELL = 1.0 / 64.0
 _POINTS_AT_ONCE = 2**17
-
-
-@dataclass(frozen=True)
-class Reference:
-    """A reference image.
-
-    Attributes
-    ----------
-    image
-        float64[h, w].
-    error
-        Bound of its error beyond rounding, in any pixel; 0: exact.
-    numerical
-        The bound is an estimate of adaptive quadrature: the scene gives no reference of its own.
-    """
-
-    image: Array
-    error: float = 0.0
-    numerical: bool = False
-
-    @property
-    def kind(self) -> str:
-        """How exact it is, in words."""
-        if self.numerical:
-            return f"adaptive quadrature, estimated within {self.error:.1g}"
-        return f"within {self.error:g}" if self.error else "exact"
 
 
 def numerical_means(scene: Scene, x_edges: Array, y_edges: Array) -> Reference:
