@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.errors import UsageError
 from samplekit.integration.configured import ConfiguredScene, configured_scene
 from samplekit.integration.estimator import UNIT_SQUARE, Estimator, Seconds
 from samplekit.integration.plan import check_points, make_plan
 from samplekit.integration.renderer import Rendering, render_plan
+from samplekit.parsing import check_positive
 from samplekit.registry import Plugin, registry
 from samplekit.sampling.configured import ConfiguredSampler, configured_sampler
 from samplekit.sampling.realizations import Realizations, check_seed
@@ -160,8 +160,7 @@ def estimate(
     integrand, source = _scene(scene), _sampler(sampler)
     check_points(integrand, source, count)
     check_seed(seed)
-    if isinstance(realizations, bool) or not isinstance(realizations, (int, np.integer)) or realizations < 1:
-        raise UsageError(f"realizations {realizations}: expected a positive integer")
+    check_positive("realizations", realizations)
     source.prepare(int(count), integrand.dims)
     boxes = np.repeat(np.array(UNIT_SQUARE)[:, None], realizations, axis=1)
     return Estimator(integrand, source, int(count)).means(

@@ -6,7 +6,7 @@ The rules are the words of ``SamplerSpec.counts``. Nothing here imports NumPy.
 from __future__ import annotations
 
 import math
-from functools import cache
+from functools import lru_cache
 from itertools import islice
 from typing import TYPE_CHECKING
 
@@ -19,12 +19,16 @@ LARGEST_ASPECT = 2
 """A grid's longest side is at most this many times its shortest: beyond it strata are strips."""
 
 
-@cache
+@lru_cache(4096)
 def grid_sides(count: int, dims: int) -> tuple[int, ...] | None:
     """The sides of the grid of ``count`` cells that is nearest to a cube, longest first; None if it would be strips.
 
     ``grid_sides(96, 2)`` is (12, 8), ``grid_sides(97, 2)`` is None.
     """
+    if dims >= count.bit_length():
+        # Fewer than 2^dims cells: some side is 1, so none is longer than 2.
+        twos = count.bit_length() - 1
+        return (2,) * twos + (1,) * (dims - twos) if count == 1 << twos else None
     best: tuple[int, ...] | None = None
     for sides in _factorizations(count, dims, count):
         if sides[0] <= LARGEST_ASPECT * sides[-1] and (best is None or sides[0] / sides[-1] < best[0] / best[-1]):

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import operator
 import re
 from dataclasses import dataclass, field
+from typing import SupportsIndex
 
 from samplekit.errors import UsageError
 
@@ -97,6 +99,19 @@ def parse_counts(text: str, what: str) -> list[int]:
     if len(counts) > _MOST_COUNTS:
         raise UsageError(f"{what}: {len(counts)} of them, at most {_MOST_COUNTS}")
     return sorted(counts)
+
+
+def check_positive(what: str, value: object) -> int:
+    """The value as an int.
+
+    Raises
+    ------
+    UsageError
+        It is not an integer of at least 1.
+    """
+    if isinstance(value, bool) or not isinstance(value, SupportsIndex) or operator.index(value) < 1:
+        raise UsageError(f"{what} {value}: expected a positive integer")
+    return operator.index(value)
 
 
 def parse_seed(text: str) -> int:

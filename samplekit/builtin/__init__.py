@@ -39,6 +39,7 @@ def samplekit_randomizers() -> list[RandomizerSpec]:
             "one random digit added at each place",
             reference="L'Ecuyer, Lemieux 2002",
             keeps=("net",),
+            largest_index=2**32 - 1,
         ),
         RandomizerSpec(
             "owen",
@@ -46,6 +47,7 @@ def samplekit_randomizers() -> list[RandomizerSpec]:
             "nested uniform scrambling of the digits",
             reference="Owen 1995; Laine, Karras 2011; Burley 2020",
             keeps=("net",),
+            largest_index=2**32 - 1,
         ),
     ]
 
@@ -98,7 +100,7 @@ def samplekit_scenes() -> list[SceneSpec]:
             "disks, a ring and a wall through a thin lens",
             reference="Cook, Porter, Carpenter 1984; Shirley, Chiu 1997 (the lens)",
             options=(
-                Option("aperture", 0.12, "diameter of the lens; 0: a pinhole", 0.0, 1e12),
+                Option("aperture", 0.1, "diameter of the lens; 0: a pinhole", 0.0, 1e12),
                 Option("focus", 1.0, "depth in focus: 0.5 disks, 1 ring, 2 wall", 0.0, math.inf),
             ),
             purposes=(("pixel", 2), ("lens", 2)),

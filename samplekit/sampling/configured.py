@@ -9,7 +9,7 @@ import numpy as np
 
 from samplekit.counts import check_count
 from samplekit.errors import SamplekitError, UsageError
-from samplekit.parsing import parse_choice
+from samplekit.parsing import check_positive, parse_choice
 from samplekit.registry import BUILTIN, Offer, registry
 from samplekit.sampling.realizations import Realizations, check_seed
 from samplekit.specs import written
@@ -106,13 +106,11 @@ class ConfiguredSampler:
             The plugin raised.
         """
         least, most = self.spec.dimensions
-        if isinstance(dims, bool) or not isinstance(dims, (int, np.integer)) or dims < 1:
-            raise UsageError(f"dims {dims}: expected a positive integer")
-        if isinstance(count, bool) or not isinstance(count, (int, np.integer)) or count < 1:
-            raise UsageError(f"count {count}: expected a positive integer")
+        check_positive("dims", dims)
+        check_positive("count", count)
         if dims < least or (most is not None and dims > most):
             span = f"{least}" if most == least else f"at least {least}" if most is None else f"{least} to {most}"
-            raise UsageError(f"{self.text} makes points in {span} dimensions, not {dims}")
+            raise UsageError(f"{self.text} makes points in {span} dimension{'' if most == 1 else 's'}, not {dims}")
         if count - 1 > self.spec.largest_index:
             raise UsageError(f"{self.text} makes at most {self.spec.largest_index + 1} points, not {count}")
         check_count(self.text, self.spec.counts, int(count), int(dims))
@@ -137,6 +135,8 @@ class ConfiguredSampler:
         out.fill(np.nan)
         try:
             self._sampler.fill(out, realizations, count, start)
+        except UsageError:
+            raise
         except Exception as error:
             raise self._failure(error) from error
         low, high = out.min(), out.max()
@@ -181,10 +181,10 @@ class ConfiguredSampler:
         self.check(count, dims)
         check_seed(seed)
         stop = count if stop is None else stop
-        if not 0 <= start < stop <= count:
-            raise UsageError(f"slice {start}:{stop}: expected 0 <= start < stop <= {count}")
-        if isinstance(realizations, bool) or not isinstance(realizations, (int, np.integer)) or realizations < 1:
-            raise UsageError(f"realizations {realizations}: expected a positive integer")
+        whole = all(isinstance(edge, (int, np.integer)) and not isinstance(edge, bool) for edge in (start, stop))
+        if not whole or not 0 <= start < stop <= count:
+            raise UsageError(f"slice {start}:{stop}: expected integers with 0 <= start < stop <= {count}")
+        check_positive("realizations", realizations)
         self.prepare(int(count), int(dims))
         out = np.empty((int(realizations), int(dims), stop - start))
         self.fill(out, Realizations.of_trials(0, int(realizations), seed), int(count), start)
@@ -226,5 +226,5 @@ def _randomized(sampler: SamplerSpec, randomizer: RandomizerSpec) -> SamplerSpec
         unbiased=randomizer.unbiased,
         period=None,
         promises=tuple(promise for promise in sampler.promises if promise.keyword in randomizer.keeps),
-        largest_index=min(sampler.largest_index, 2**32 - 1),
+        largest_index=min(sampler.largest_index, randomizer.largest_index),
     )

@@ -5,10 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from samplekit.numerics.kernel import helper
-from samplekit.sampling.hashing import ONE_MINUS_EPSILON, second_key, unit
+from samplekit.sampling.hashing import second_key
+from samplekit.sampling.stratification import offset_bits
 
-DIGITS_LIMIT = 1 << 51
-"""Numerators are below this: float64 then carries them through a division and back without loss."""
+DIGITS_LIMIT = 1 << 45
+"""Numerators are below this: float64 holds them with five digits more, and every prime up to 8161 reaches 2^32."""
 
 
 @helper
@@ -21,6 +22,16 @@ def numerator(x: float, power: int) -> int:
 
 
 @helper
-def fraction(m: int, key: np.uint64, power: int) -> float:
-    """(m + r) / power with r in [0, 1) random by key alone: the digits past the last, shifted alike for all points."""
-    return min((np.float64(m) + unit(second_key(key ^ np.uint64(power)))) / np.float64(power), ONE_MINUS_EPSILON)
+def tail_digits(key: np.uint64, power: int) -> float:
+    """A random offset in (0, 1) within the cells of width 1 / power, by key alone: the digits past the last.
+
+    So few bits that m plus the offset is exact, and stays in its cell when it is divided.
+    """
+    bits = offset_bits(power)
+    return (np.float64(second_key(key ^ np.uint64(power)) >> np.uint64(64 - bits)) + 0.5) * 2.0 ** (-bits)
+
+
+@helper
+def fraction(m: int, tail: float, power: int) -> float:
+    """(m + tail) / power."""
+    return (np.float64(m) + tail) / np.float64(power)

@@ -3,8 +3,9 @@
 Each binary digit is flipped by a random bit that depends on all digits before it. With the digits in reverse order
 this is a hash in which every bit depends only on lower bits: Laine and Karras 2011, "Stratified sampling for stochastic
 transparency", section 3.1, as used by Burley 2020, "Practical hash-based Owen scrambling". The multipliers are
-Vegdahl's (2021), found by search for low bias. A dimension's key gives 63 bits to the hash, and 21 bits for the digits
-past the 32nd.
+Vegdahl's (2021). Adding a random word and multiplying by a random odd one takes any two points to each pair that a
+nested scrambling allows equally often, so the variance is Owen's. A dimension's key gives 63 bits to the hash, and 21
+bits for the digits past the 32nd.
 """
 
 from __future__ import annotations

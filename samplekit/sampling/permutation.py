@@ -1,6 +1,6 @@
 """Random permutations that any index can ask for on its own.
 
-Up to 1024 elements: Fisher and Yates' shuffle (Durstenfeld 1964), every permutation equally likely.
+Up to 1024 elements: Fisher and Yates' shuffle (Durstenfeld 1964), all pairs of places equally likely.
 Above: a keyed bijection of the next power of two, walked until it falls inside (cycle walking, Black and Rogaway 2002;
 the idea of hashing an index to its place is Kensler's, "Correlated Multi-Jittered Sampling", Pixar 13-01, 2013).
 """
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit.numerics.kernel import helper
-from samplekit.sampling.hashing import below, hash_index, second_key
+from samplekit.sampling.hashing import below, hash_index, mix64, second_key
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -21,6 +21,7 @@ _U64 = np.uint64
 _U32 = np.uint32
 SHUFFLED = 1024
 """Largest number of elements that is shuffled."""
+_FEW_BITS = 10
 
 
 @helper
@@ -43,8 +44,8 @@ def permutation_bits(count: int) -> int:
 
 
 @helper
-def scatter(x: np.uint32, bits: int, key: np.uint64) -> np.uint32:
-    """A keyed bijection of the integers below 2^bits, 1 <= bits <= 32.
+def _scatter_once(x: np.uint32, bits: int, key: np.uint64) -> np.uint32:
+    """One round of :func:`scatter`.
 
     Every step is a bijection modulo 2^bits: exclusive or with a constant or the word's own high bits, addition, odd
     multiplication.
@@ -67,6 +68,16 @@ def scatter(x: np.uint32, bits: int, key: np.uint64) -> np.uint32:
     x = _U32(x * _U32(0x297A2D39)) & mask
     x = x ^ (x >> half)
     return _U32(x + (low >> _U32(15)) + (high << _U32(5))) & mask
+
+
+@helper
+def scatter(x: np.uint32, bits: int, key: np.uint64) -> np.uint32:
+    """A keyed bijection of the integers below 2^bits, 1 <= bits <= 32."""
+    x = _scatter_once(x, bits, key)
+    # With few bits one round leaves some pairs half as likely again as others.
+    if bits <= _FEW_BITS:
+        x = _scatter_once(x, bits, mix64(key))
+    return x
 
 
 @helper

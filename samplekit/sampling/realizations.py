@@ -84,7 +84,9 @@ class Realizations:
         return int(self.keys.size)
 
     def __getitem__(self, rows: slice) -> Realizations:
-        return Realizations(self.keys[rows], self.x[rows], self.y[rows], self.seed, self.blocks)
+        keys = np.ascontiguousarray(self.keys[rows])
+        x, y = np.ascontiguousarray(self.x[rows]), np.ascontiguousarray(self.y[rows])
+        return Realizations(keys, x, y, self.seed, self.blocks)
 
 
 def seed_word(seed: int) -> np.uint64:

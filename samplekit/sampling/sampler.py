@@ -27,8 +27,9 @@ class Sampler:
     - ``fill(out, realizations, count, start)``: writes points of the sets directly (NumPy or a kernel);
     - ``draw(count, dims, rng)``: makes one set as a whole, the slow door for a first try.
 
-    Values may depend on nothing but the options, the realisation's key, the index, the dimension, and, where the
-    sampler is not progressive, the count and the number of dimensions.
+    Values may depend on nothing but the options, the realisation (its key, or its pixel and the seed; the blocks of its
+    dimensions), the index, the dimension, and, where the sampler is not progressive, the count and the number of
+    dimensions.
     """
 
     def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:

@@ -171,10 +171,11 @@ class RandomizerSpec(_Spec):
     """What a randomizer declares.
 
     ``keeps`` names the kinds of promise that survive it: ``net``, ``latin``, ``grid``, ``orthogonal-array``,
-    ``distance``.
+    ``distance``; ``largest_index`` is that of a point whose digits it can still tell apart.
     """
 
     keeps: tuple[str, ...] = field(default=(), kw_only=True)
+    largest_index: int = field(default=2**64 - 1, kw_only=True)
     unbiased: bool = field(default=True, kw_only=True)
 
 

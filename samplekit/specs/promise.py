@@ -1,4 +1,7 @@
-"""Promises: what holds exactly of every realisation of a sampler, and what conformance checks."""
+"""Promises: what holds exactly of every realisation of a sampler, and what conformance checks.
+
+The edge of a cell is the float64 nearest to its fraction: a point at 1/3 lies in the cell that begins at 1/3.
+"""
 
 from __future__ import annotations
 

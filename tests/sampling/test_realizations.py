@@ -107,3 +107,12 @@ def test_bits_of_keys_and_words_are_fair():
         for bit in range(64):
             ones = np.count_nonzero(sample >> np.uint64(bit) & np.uint64(1))
             assert abs(ones / 65536 - 0.5) < 5 * 0.5 / 256
+
+
+def test_every_other_realisation():
+    every, other = np.empty((10, 2, 4)), np.empty((5, 2, 4))
+    realizations = Realizations.of_trials(0, 10, 0)
+    sampler = samplekit.sampler("random")
+    sampler.fill(every, realizations, 4, 0)
+    sampler.fill(other, realizations[::2], 4, 0)
+    assert np.array_equal(every[::2], other)

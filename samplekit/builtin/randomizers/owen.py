@@ -3,19 +3,22 @@
 Owen 1995, "Randomly permuted (t,m,s)-nets and (t,s)-sequences". In base 2 the digits are flipped by a hash of the
 digits before them. In a prime base b > 2 each node of the tree of digits has a random affine permutation
 a d + c mod b, a != 0: any two digits go to a uniformly random pair of distinct digits, which is all that mean and
-variance depend on (Owen 2003, "Variance with alternative scramblings of digital nets").
+variance depend on (Owen 2003, "Variance with alternative scramblings of digital nets"). In a composite base that is no
+permutation, and each node shuffles its digits.
 """
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from samplekit.numerics.kernel import kernel, reverse_bits32
-from samplekit.sampling.digits import DIGITS_LIMIT, fraction, numerator
+from samplekit.sampling.digits import DIGITS_LIMIT, fraction, numerator, tail_digits
 from samplekit.sampling.hashing import GOLDEN, TWO_M32, below, mix64
 from samplekit.sampling.owen import owen_addend, owen_factor, owen_key, owen_tail, scramble_reversed, tail_value
+from samplekit.sampling.permutation import shuffle
 from samplekit.sampling.radical_inverse import largest_power
 from samplekit.sampling.randomizer import Randomizer
 
@@ -30,9 +33,12 @@ _TWO_P32 = 2.0**32
 _TWO_P53 = 2.0**53
 
 
-@kernel("void(float64[:,:,::1], uint64[::1], int64[::1])")
-def _apply(points: NDArray[np.float64], keys: NDArray[np.uint64], bases: NDArray[np.int64]) -> None:
+@kernel("void(float64[:,:,::1], uint64[::1], int64[::1], boolean[::1])")
+def _apply(
+    points: NDArray[np.float64], keys: NDArray[np.uint64], bases: NDArray[np.int64], is_prime: NDArray[np.bool_]
+) -> None:
     realizations, dims, count = points.shape
+    table = np.empty(bases.max(), np.int64)
     for d in range(dims):
         base = bases[d]
         power = largest_power(base, DIGITS_LIMIT)
@@ -49,6 +55,7 @@ def _apply(points: NDArray[np.float64], keys: NDArray[np.uint64], bases: NDArray
                     scrambled_head = scramble_reversed(reverse_bits32(head), addend, factor)
                     row[i] = np.float64(scrambled_head) * TWO_M32 + tail_value(digits_after ^ tail)
                 continue
+            tail_b = tail_digits(key, power)
             for i in range(count):
                 rest = numerator(row[i], power)
                 weight = power
@@ -59,11 +66,16 @@ def _apply(points: NDArray[np.float64], keys: NDArray[np.uint64], bases: NDArray
                     digit = rest // weight
                     rest -= digit * weight
                     random = mix64(node)
-                    factor_b = 1 + np.int64(below(random, _U64(base - 1)))
-                    addend_b = np.int64(below(random << _U64(32), _U64(base)))
-                    scrambled = scrambled * base + (factor_b * digit + addend_b) % base
+                    if is_prime[d]:
+                        factor_b = 1 + np.int64(below(random, _U64(base - 1)))
+                        addend_b = np.int64(below(random << _U64(32), _U64(base)))
+                        permuted = (factor_b * digit + addend_b) % base
+                    else:
+                        shuffle(table, base, random)
+                        permuted = table[digit]
+                    scrambled = scrambled * base + permuted
                     node = mix64(node + GOLDEN * _U64(digit + 1))
-                row[i] = fraction(scrambled, key, power)
+                row[i] = fraction(scrambled, tail_b, power)
 
 
 class Owen(Randomizer):
@@ -71,4 +83,5 @@ class Owen(Randomizer):
 
     def apply(self, points: NDArray[np.float64], realizations: Realizations, bases: tuple[int, ...]) -> None:
         """Scramble ``points`` in place; see :meth:`Randomizer.apply`."""
-        _apply(points, realizations.keys, np.array(bases, np.int64))
+        is_prime = [all(base % divisor for divisor in range(2, math.isqrt(base) + 1)) for base in bases]
+        _apply(points, realizations.keys, np.array(bases, np.int64), np.array(is_prime))

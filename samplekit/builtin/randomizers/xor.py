@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit.numerics.kernel import kernel
-from samplekit.sampling.digits import DIGITS_LIMIT, fraction, numerator
+from samplekit.sampling.digits import DIGITS_LIMIT, fraction, numerator, tail_digits
 from samplekit.sampling.hashing import TWO_M53, below, dimension_key, hash_index, mix64, second_key
 from samplekit.sampling.radical_inverse import largest_power
 from samplekit.sampling.randomizer import Randomizer
@@ -40,6 +40,7 @@ def _apply(points: NDArray[np.float64], keys: NDArray[np.uint64], bases: NDArray
                     row[i] = np.float64(_U64(row[i] * _TWO_P53) ^ word) * TWO_M53
                 continue
             second = second_key(key)
+            tail = tail_digits(key, power)
             for i in range(count):
                 rest = numerator(row[i], power)
                 weight = power
@@ -52,7 +53,7 @@ def _apply(points: NDArray[np.float64], keys: NDArray[np.uint64], bases: NDArray
                     added = np.int64(below(hash_index(key, second, _U64(place)), _U64(base)))
                     shifted = shifted * base + (digit + added) % base
                     place += 1
-                row[i] = fraction(shifted, key, power)
+                row[i] = fraction(shifted, tail, power)
 
 
 class Xor(Randomizer):

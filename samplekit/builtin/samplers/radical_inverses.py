@@ -7,17 +7,20 @@ coordinate is 1.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from samplekit.sampling.radical_inverse import primes, radical_inverses
 from samplekit.sampling.sampler import Sampler
+from samplekit.specs import Net
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from samplekit.sampling.realizations import Realizations
+    from samplekit.specs import SamplerSpec
 
 
 class Halton(Sampler):
@@ -39,6 +42,10 @@ class VanDerCorput(Halton):
 
     def __init__(self, base: int = 2) -> None:
         self.base = base
+
+    def refine(self, spec: SamplerSpec) -> SamplerSpec:
+        """Blocks of powers of the base are nets in it."""
+        return replace(spec, promises=(Net(dims=(0,), base=self.base),))
 
     def bases(self, dims: int) -> tuple[int, ...]:
         """The base, for the one dimension."""

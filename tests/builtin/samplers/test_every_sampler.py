@@ -122,7 +122,7 @@ LARGE = [
     ("sobol+owen", 2**32),
     ("halton+owen", 2**32),
     ("halton+xor", 2**32),
-    ("halton+shift", 2**32),
+    ("halton+shift", 2**40),
     ("hammersley+owen", 2**32),
     ("random+xor", 2**32),
     ("regular", 2**32),
