@@ -1,6 +1,6 @@
 """Whole commands: CPU time against bare imports, threads against one, memory against samples, pixels left out.
 
-    python benchmarks/command.py [--repeats 5]
+python benchmarks/command.py [--repeats 5]
 """
 
 from __future__ import annotations
