@@ -28,8 +28,8 @@ def _counts(subject: Subject, dims: int) -> list[int]:
     wanted = [n for place in PLACES for n in (place + _POINTS, 2 * place, place)] + [2**30, 2**20, most]
     rule = subject.spec.counts
     # A grid of 2^32 cells is found at once as a square; by trying divisors it would take for ever.
-    if rule in ("products", "products-in-2"):
-        sides = dims if rule == "products" else 2
+    if rule.startswith("products"):
+        sides = dims if rule == "products" else int(rule.rpartition("-")[2])
         return [2 ** (sides * k) for k in range(8, 33) if 2 ** (sides * k) <= most and 2 ** (sides * k) >= 2**16]
     return sorted({n for n in wanted if 2**16 <= n <= most and allows(rule, n, dims)})
 

@@ -25,7 +25,8 @@ def test_none_is_excused():
 
 
 def test_the_same_verdict_twice():
-    first, second = (check_sampler("halton+owen", quick=True) for _ in range(2))
+    only = ["uniformity", "unbiasedness", "variance", "across-pixels", "across-dimensions"]
+    first, second = (check_sampler("halton+owen", quick=True, only=only) for _ in range(2))
     assert [(each.check, each.status, each.message) for each in first] == [
         (each.check, each.status, each.message) for each in second
     ]
