@@ -6,6 +6,7 @@ import shlex
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -402,8 +403,12 @@ def test_an_interrupt_leaves_nothing_behind(tmp_path, more):
         while not line.startswith("samples: "):
             line = running.stderr.readline()
             assert line, "it ended before it began"
+        time.sleep(0.5)
         running.send_signal(signal.SIGINT)
-        out, err = running.communicate(timeout=60)
+        try:
+            out, err = running.communicate(timeout=60)
+        finally:
+            running.kill()
     assert running.returncode == 130
     assert out == ""
     assert "Traceback" not in err
