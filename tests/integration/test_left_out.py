@@ -73,7 +73,6 @@ ADAPTIVE = {"pixel_means", "pieces", "kept_means"}
     [
         ("--version", set()),
         ("list scenes", set()),
-        ("render disk --no-error", set()),
         ("render disk", {"metrics"}),
         ("render depth-of-field --no-error", {"depth_of_field", "depth_of_field_bounds"}),
         (
@@ -85,9 +84,7 @@ ADAPTIVE = {"pixel_means", "pieces", "kept_means"}
             {"depth_of_field", "depth_of_field_bounds", "depth_of_field_lens", "metrics", *ADAPTIVE},
         ),
         ("render motion-blur --no-error", {"motion_blur"}),
-        ("render motion-blur", {"motion_blur", "motion_blur_means", "metrics", *ADAPTIVE}),
         ("render ambient-occlusion --no-error", {"ambient_occlusion"}),
-        ("render ambient-occlusion", {"ambient_occlusion", "metrics", *ADAPTIVE}),
     ],
 )
 def test_each_command_imports_what_it_uses_and_nothing_else(tmp_path, command, ours):

@@ -46,7 +46,7 @@ class Hidden(Scene):
 
 
 def test_an_edge_is_found_and_the_estimate_holds():
-    edges = np.arange(33) / 32
+    edges = np.arange(25) / 24
     reference = numerical_means(PlainDisk(), edges, edges)
     error = np.abs(reference.image - Disk().exact(edges, edges))
     assert error.max() < 1e-4
@@ -74,7 +74,7 @@ def test_further_dimensions():
 
 
 def test_steps_in_further_dimensions_are_confessed():
-    edges = np.arange(17) / 16
+    edges = np.arange(9) / 8
     reference = numerical_means(Hidden(), edges, edges)
     error = np.abs(reference.image - DepthOfField().exact(edges, edges))
     assert error.max() <= reference.error
