@@ -136,7 +136,7 @@ class Registry:
         self.plugins.append(plugin)
         try:
             self._manager.register(module, name=plugin.name)
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             # Registering is not transactional: take back what pluggy kept.
             self._manager.unregister(name=plugin.name)
             plugin.problems.append(f"cannot be registered: {_one_line(error)}")
@@ -157,7 +157,7 @@ class Registry:
     def _collect(self, kind: Kind, plugin: Plugin, hook: Any) -> None:
         try:
             specs = list(hook())
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             plugin.problems.append(f"samplekit_{kind}s failed: {_one_line(error)}")
             return
         for spec in specs:
@@ -204,7 +204,11 @@ def _own_version() -> str:
 
 
 def _distribution(entry: EntryPoint) -> tuple[str, str]:
-    return (entry.dist.name, entry.dist.version) if entry.dist else ("unknown", "?")
+    try:
+        # Half-removed distributions have neither.
+        return (entry.dist and entry.dist.name) or "unknown", (entry.dist and entry.dist.version) or "?"
+    except Exception:
+        return "unknown", "?"
 
 
 def _names_in(variable: str) -> set[str] | None:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import gc
 import os
 import sys
-from typing import Annotated, Any
+from pathlib import Path
+from typing import Annotated, Any, TextIO
 
 import typer
 
@@ -62,7 +63,14 @@ def main() -> None:
     """Run the command line; every error ends in one line on stderr and an exit status."""
     # Imports make many objects and no garbage: collecting among them is a tenth of the start-up.
     gc.set_threshold(100_000)
+    # A shell may close either: Python then has None, and every print and question to it would fail.
+    sys.stdout = sys.stdout or _nowhere()
+    sys.stderr = sys.stderr or _nowhere()
     sys.exit(run(sys.argv[1:]))
+
+
+def _nowhere() -> TextIO:
+    return Path(os.devnull).open("w", encoding="utf-8")
 
 
 def run(arguments: list[str]) -> int:
@@ -77,8 +85,7 @@ def run(arguments: list[str]) -> int:
     except (KeyboardInterrupt, typer.Abort):
         return INTERRUPTED
     except BrokenPipeError:
-        # The reader left: nothing more can be said on stdout, and Python must not try when it exits.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _abandon_stdout()
         return FAILED
     except MemoryError:
         return _failed("out of memory", FAILED, arguments)
@@ -87,6 +94,11 @@ def run(arguments: list[str]) -> int:
             raise
         what = " ".join(f"{type(error).__name__}: {error}".split())
         return _failed(f"internal error: {what} (SAMPLEKIT_TRACEBACK=1 shows where)", FAILED, arguments)
+
+
+def _abandon_stdout() -> None:
+    """The reader left: nothing more can be said on stdout, and Python must not try when it exits."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _message(error: Exception) -> str:
@@ -98,7 +110,10 @@ def _failed(message: str, status: int, arguments: list[str]) -> int:
     if "--json" in arguments:
         import json
 
-        print(json.dumps({"schema": "samplekit.error/1", "error": message}))  # noqa: T201
+        try:
+            print(json.dumps({"schema": "samplekit.error/1", "error": message}), flush=True)  # noqa: T201
+        except BrokenPipeError:
+            _abandon_stdout()
     # Without arguments the help has been shown, and there is nothing to add.
     if message:
         print(f"samplekit: {message}", file=sys.stderr)  # noqa: T201

@@ -44,14 +44,19 @@ class PluginGroup(TyperGroup):
             # Help needs the declaration alone.
             return typer.main.get_command(_described(offer.spec.name, offer.spec.summary))
         single = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
-        single.command(offer.spec.name, help=offer.spec.summary)(offer.spec.load())
+        single.command(offer.spec.name, help=_plain(offer.spec.summary))(offer.spec.load())
         return typer.main.get_command(single)
+
+
+def _plain(summary: str) -> str:
+    """The summary with its brackets kept from being taken for markup."""
+    return summary.replace("[", r"\[")
 
 
 def _described(name: str, summary: str) -> typer.Typer:
     app = typer.Typer(add_completion=False)
 
-    @app.command(name, help=summary)
+    @app.command(name, help=_plain(summary))
     def _command() -> None: ...
 
     return app

@@ -98,7 +98,7 @@ def render(
     if invalid:
         from samplekit.errors import SamplekitError
 
-        samples = int(rendering.metrics["invalid_samples"])
+        samples = int(rendering.metrics.get("invalid_samples", 0))
         message = f"{samples} samples of {plan.scene.text} were not finite, in {invalid} pixels: shown in magenta"
         if json:
             typer.echo(f"samplekit: {message}", err=True)

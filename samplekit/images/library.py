@@ -19,6 +19,8 @@ __all__ = ["file_name", "oiio", "one_line"]
 # A dropped ImageBuf with an unread error prints it to stdout, into the middle of a JSON answer.
 oiio.attribute("imagebuf:print_uncaught_errors", 0)
 oiio.attribute("threads", 1)
+# Crops of images larger than its own limit are whole images to it.
+oiio.attribute("limits:resolution", 2**31 - 1)
 # -1 leaves OpenEXR without a thread pool of its own: with one, a process forked after any write waits for ever.
 oiio.attribute("exr_threads", -1)
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypeVar
 import numpy as np
 
 from samplekit.errors import SamplekitError, UsageError
-from samplekit.parsing import parse_choice
+from samplekit.parsing import check_positive, parse_choice
 from samplekit.registry import BUILTIN, Offer, registry
 from samplekit.specs import PIXEL_FILTER, written
 
@@ -51,7 +51,7 @@ class ConfiguredScene:
         implementation = spec.load()
         keywords = {name.replace("-", "_"): value for name, value in values.items()}
         self._scene: Scene = self._guarded("be set up", lambda: implementation(**keywords))
-        self.needs: dict[str, int] = dict(self._guarded("tell its dimensions", self._scene.dimensions))
+        self.needs = self._guarded("tell its dimensions", lambda: _checked_needs(self._scene.dimensions()))
         if self.at_centre:
             self.needs.pop("pixel", None)
         if not self.needs:
@@ -77,6 +77,8 @@ class ConfiguredScene:
         if self._trusted:
             self._scene.sums(tile, boxes, out)
         else:
+            # What a plugin does not write must not pass for a result.
+            out.fill(np.nan)
             self._guarded("be evaluated", lambda: self._scene.sums(tile, boxes, out))
 
     def exact(self, x_edges: NDArray[np.float64], y_edges: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -123,14 +125,21 @@ class ConfiguredScene:
 
     def _guarded(self, what: str, call: Callable[[], T]) -> T:
         try:
-            return call()
+            # Values that are not finite are counted and reported; a warning for each would drown that.
+            with np.errstate(all="ignore"):
+                return call()
         except UsageError:
             raise
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             message = " ".join(str(error).split())
             raise SamplekitError(
                 f"scene {self.spec.name} of plugin {self.plugin} cannot {what}: {type(error).__name__}: {message}"
             ) from error
+
+
+def _checked_needs(needs: Mapping[str, int]) -> dict[str, int]:
+    """The dimensions by purpose, if they are positive integers."""
+    return {purpose: check_positive(f"the dimensions of {purpose}:", number) for purpose, number in needs.items()}
 
 
 def _centres(edges: NDArray[np.float64]) -> NDArray[np.float64]:

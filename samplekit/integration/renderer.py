@@ -6,7 +6,7 @@ import math
 import os
 import threading
 import time
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from concurrent.futures import Future, ThreadPoolExecutor, as_completed
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -118,9 +118,9 @@ def render_plan(
         _run_on_threads(jobs, threads, plan, estimator, clock, image)
     invalid = plan.sampled[~np.isfinite(image[plan.sampled])]
     metrics: dict[str, float] = {}
-    if invalid.size:
+    if not np.isfinite(image).all():
         metrics["invalid_samples"] = estimator.invalid_samples(*locate(invalid, plan))
-        metrics["invalid_pixels"] = int(invalid.size)
+        metrics["invalid_pixels"] = int(np.count_nonzero(~np.isfinite(image)))
     shaped = image.reshape(plan.window[3], plan.window[2])
     reference = error = None
     reference_kind = ""
@@ -218,8 +218,11 @@ def _run_on_threads(
     image: NDArray[np.float64],
 ) -> None:
     with ThreadPoolExecutor(threads) as pool:
-        futures = {pool.submit(_means, job, plan, estimator, clock): job for job in jobs}
+        futures: dict[Future[NDArray[np.float64]], NDArray[np.int64]] = {}
         try:
+            # Here as well an interrupt must stop what has begun: leaving the pool waits for all of it.
+            for job in jobs:
+                futures[pool.submit(_means, job, plan, estimator, clock)] = job
             for future in as_completed(futures):
                 image[futures[future]] = future.result()
         except BaseException as error:

@@ -81,7 +81,7 @@ class ConfiguredSampler:
             self._sampler.prepare(count, dims, progress)
         except SamplekitError:
             raise
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             raise self._failure(error) from error
 
     def notes(self, count: int, dims: int) -> list[str]:
@@ -118,7 +118,7 @@ class ConfiguredSampler:
             self._sampler.check(int(count), int(dims), blocks)
         except SamplekitError:
             raise
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             raise self._failure(error) from error
 
     def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
@@ -137,14 +137,14 @@ class ConfiguredSampler:
             self._sampler.fill(out, realizations, count, start)
         except UsageError:
             raise
-        except Exception as error:
+        except (Exception, SystemExit) as error:
             raise self._failure(error) from error
         low, high = out.min(), out.max()
         if not (low >= 0.0 and high < 1.0):
-            wrong = "NaN or values it did not write" if np.isnan(low) else f"{low if low < 0 else high!r}"
+            wrong = "NaN or values it did not write" if np.isnan(low) else f"{float(low if low < 0 else high)!r}"
             raise SamplekitError(f"sampler {self.text} of plugin {self.plugin} gave {wrong}: expected values in [0, 1)")
 
-    def _failure(self, error: Exception) -> SamplekitError:
+    def _failure(self, error: BaseException) -> SamplekitError:
         message = " ".join(str(error).split())
         return SamplekitError(f"sampler {self.text} of plugin {self.plugin} failed: {type(error).__name__}: {message}")
 
@@ -212,7 +212,7 @@ def _construct(offer: Offer, values: Mapping[str, OptionValue]) -> Any:
         return implementation(**keywords)
     except SamplekitError:
         raise
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         message = " ".join(str(error).split())
         raise SamplekitError(
             f"{offer.spec.name} of plugin {offer.plugin} cannot be set up: {type(error).__name__}: {message}"

@@ -15,11 +15,11 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
 API_VERSION = 1
-TARGET = re.compile(r"^[A-Za-z_][\w.]*:[A-Za-z_]\w*$")
+TARGET = re.compile(r"^[A-Za-z_][\w.]*:[A-Za-z_]\w*\Z")
 COUNTS = re.compile(
-    r"^(any|products|products-in-[1-9]\d*|squares|prime-squares|prime-cubes|fibonacci|(powers-of|exactly)-[1-9]\d*)$"
+    r"^(any|products|products-in-[1-9]\d*|squares|prime-squares|prime-cubes|fibonacci|(powers-of|exactly)-[1-9]\d*)\Z"
 )
-PROGRESSIVE = re.compile(r"^(no|every-count|powers-of-[1-9]\d*)$")
+PROGRESSIVE = re.compile(r"^(no|every-count|powers-of-[1-9]\d*)\Z")
 
 
 @dataclass(frozen=True)

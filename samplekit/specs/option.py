@@ -13,7 +13,7 @@ from samplekit.errors import UsageError
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-NAME = re.compile(r"^[a-z][a-z0-9-]*$")
+NAME = re.compile(r"^[a-z][a-z0-9-]*\Z")
 
 OptionValue = int | float | str | bool
 
@@ -100,7 +100,7 @@ def written(name: str, given: Mapping[str, object], values: Mapping[str, OptionV
 def _shortest(value: OptionValue) -> str:
     if isinstance(value, bool):
         return str(value).lower()
-    return str(value).removesuffix(".0")
+    return str(value).removesuffix(".0") if isinstance(value, float) else str(value)
 
 
 def _convert(kind: type, value: object) -> OptionValue:
