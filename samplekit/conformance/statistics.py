@@ -5,18 +5,18 @@ probability that a conforming sampler has one is at most ``SAMPLER_RATE``; a run
 false alarm with probability at most ``FAMILY_RATE``. Within a sampler the rate is shared equally by the checks, and
 within a check by its tests (Bonferroni), however these depend on each other.
 
-What each check sees (the smallest fault that it finds nine times in ten, for points with the variance of random ones;
-better samplers are seen through further):
+What each check sees: the smallest fault that it finds nine times in ten, of points as noisy as random ones; less noisy
+samplers are seen through further, and slow ones, which are judged on smaller samples, less far.
 
-=================  =============================================================  =============================
-check              a run                                                          a quick run
-=================  =============================================================  =============================
-uniformity         density wrong by 7 % rms over 31 x 31 cells                    30 % rms
-unbiasedness       9e-4 of a coordinate's standard deviation per sqrt(4.2e6 / n)  16 times more points needed
-variance           1.6 times what is promised                                     2 times
-across-pixels      correlation of neighbours of 0.026                             0.1
-across-dimensions  correlation of two dimensions of 0.014                         0.027
-=================  =============================================================  =============================
+=================  ===================================================  =====================
+check              a run                                                a quick run
+=================  ===================================================  =====================
+uniformity         density wrong by 7 % rms over 31 x 31 cells          28 % rms
+unbiasedness       a coordinate's mean wrong by 9.3e-4                  3.7e-3
+variance           1.35 times what is promised                          1.45 times
+across-pixels      correlation 0.02 of one pixel with another           0.075
+across-dimensions  correlation 0.014 of one dimension with another      0.027
+=================  ===================================================  =====================
 """
 
 from __future__ import annotations

@@ -65,3 +65,14 @@ def test_correlations_are_pearsons():
         assert found[row] == pytest.approx([matrix[0, 1], matrix[0, 2], matrix[1, 2]])
     values[0, 1] = 0.5
     assert pair_correlations(values)[0, 0] == 0.0
+
+
+def test_the_bias_and_the_correlation_that_are_seen_are_those_that_are_stated():
+    """Nine times in ten means 1.28 standard deviations beyond the threshold."""
+    beyond = 1.2816
+    bias = (statistics.normal_threshold(25) + beyond) * math.sqrt(1 / 12) / math.sqrt(2**14 * 256)
+    assert bias == pytest.approx(9.3e-4, rel=0.05)
+    neighbours = (statistics.normal_threshold(48) + beyond) / math.sqrt(2**17)
+    assert neighbours <= 0.02
+    dimensions = (statistics.normal_threshold(56) + beyond) / math.sqrt(64 * 4095)
+    assert dimensions <= 0.014
