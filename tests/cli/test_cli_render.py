@@ -398,6 +398,8 @@ def test_an_interrupt_leaves_nothing_behind(tmp_path, more):
         stderr=subprocess.PIPE,
         text=True,
         cwd=tmp_path,
+        # A shell starts what runs in its background with interrupts ignored, and its children inherit that.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     ) as running:
         line = ""
         while not line.startswith("samples: "):
