@@ -36,7 +36,7 @@ def test_json_is_one_object(capsys):
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        (["sobool"], "did you mean sobol?"),
+        (["sobool"], "did you mean sobol"),
         ([], "expected NAME..., or --all"),
         (["sobol", "--only", "prefixes"], "unknown check 'prefixes'"),
         (["sobol:seed=3"], "has no option 'seed'"),

@@ -29,9 +29,8 @@ def test_a_failure_shows_the_counter_example_alone(samplekit_with, tmp_path):
 def test_wrong_names_are_one_line(samplekit_with, tmp_path):
     result = samplekit_with(*SUITE, "--sampler", "sobool", cwd=tmp_path)
     assert result.returncode == 4
-    assert result.stderr.strip() == "ERROR: unknown sampler 'sobool': did you mean sobol?" or (
-        "unknown sampler 'sobool': did you mean sobol?" in result.stderr
-    )
+    assert "unknown sampler 'sobool': did you mean sobol" in result.stderr
+    assert result.stderr.strip().count("\n") == 0
     result = samplekit_with(*SUITE, "--sampler", "misspelt", cwd=tmp_path)
     assert result.returncode == 4
     assert "unknown check 'rnage'" in result.stderr

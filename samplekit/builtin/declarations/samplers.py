@@ -6,6 +6,13 @@ from samplekit.specs import GridStrata, LatinStrata, Net, Option, OrthogonalArra
 
 _SAMPLERS = "samplekit.builtin.samplers."
 
+
+def _owen_sobol_nets(first: int) -> tuple[Net, ...]:
+    """The nets of a block of four dimensions: t is the sum of the polynomials' degrees less one (Sobol' 1967)."""
+    quality = {(0, 1): 0, (0, 2): 1, (1, 2): 1, (0, 3): 2, (1, 3): 2, (2, 3): 3, (0, 1, 2): 1, (0, 1, 2, 3): 3}
+    return tuple(Net(dims=tuple(first + d for d in dims), t=t) for dims, t in quality.items())
+
+
 SAMPLERS = (
     SamplerSpec(
         "random",
@@ -137,6 +144,55 @@ SAMPLERS = (
         unbiased=False,
         largest_index=2**32 - 1,
         promises=(Net(dims=(0, 1), base=2),),
+    ),
+    SamplerSpec(
+        "niederreiter",
+        _SAMPLERS + "niederreiter:Niederreiter",
+        "digital sequence in base 2 from irreducible polynomials",
+        reference="Niederreiter 1988; Bratley, Fox, Niederreiter 1992",
+        dimensions=(1, 412),
+        progressive="powers-of-2",
+        randomized=False,
+        unbiased=False,
+        largest_index=2**32 - 1,
+        promises=(Net(dims=(0, 1)), Net(dims=(0, 1, 2), t=1), Net(dims=(0, 1, 2, 3), t=3)),
+    ),
+    SamplerSpec(
+        "owen-sobol",
+        _SAMPLERS + "owen_sobol:OwenSobol",
+        "Sobol points in blocks of four dimensions, each Owen-scrambled and shuffled",
+        reference="Burley 2020; Laine, Karras 2011; Joe, Kuo 2008",
+        progressive="powers-of-2",
+        promises=(*_owen_sobol_nets(0), *_owen_sobol_nets(4)),
+    ),
+    SamplerSpec(
+        "pmj02",
+        _SAMPLERS + "pmj02:Pmj02",
+        "progressive multi-jittered (0, 2)-sequence, in pairs of dimensions",
+        reference="Christensen, Kensler, Kilpatrick 2018; Helmer, Christensen, Kensler 2021",
+        progressive="powers-of-2",
+        promises=tuple(Net(dims=(first, first + 1)) for first in (0, 2, 4, 6)),
+    ),
+    SamplerSpec(
+        "z-sobol",
+        _SAMPLERS + "z_sobol:ZSobol",
+        "one Owen-scrambled Sobol sequence for neighbouring pixels: blue noise in the error image",
+        reference="Ahmed, Wonka 2020",
+        options=(
+            Option(
+                "orders",
+                "complementary",
+                "of four quadrants of pixels: those in which neighbours complement each other, or all",
+                choices=("complementary", "all"),
+            ),
+        ),
+        counts="powers-of-2",
+        promises=(
+            LatinStrata(),
+            GridStrata(block=2),
+            *(Net(dims=(first, first + 1), sequence=False) for first in (0, 2, 4, 6)),
+        ),
+        expected_failures={"across-pixels": "neighbouring pixels complement each other: that is what it is for"},
     ),
     SamplerSpec(
         "file",
