@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from samplekit.drawing.raster import draw_pixels
+from samplekit.drawing.vector import svg_text
 from samplekit.errors import UsageError
 from samplekit.images.exr import parts_writer
 from samplekit.images.files import check_targets, shown, write_group
@@ -15,15 +17,13 @@ from samplekit.pointsets.verified import text_writer
 from samplekit_spectrum.frequencies import Cube, Listed
 from samplekit_spectrum.picture import Panel, maps_picture, spectrum_picture
 from samplekit_spectrum.plot import radial_plot
-from samplekit_spectrum.raster import draw_pixels
 from samplekit_spectrum.tables import listed_csv, radial_csv
-from samplekit_spectrum.vector import svg_text
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from samplekit.drawing.drawing import Drawing
     from samplekit.images.files import Writer
-    from samplekit_spectrum.drawing import Drawing
     from samplekit_spectrum.error_image import ErrorSpectrum
     from samplekit_spectrum.spectrum import Spectrum
 

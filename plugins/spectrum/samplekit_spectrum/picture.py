@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from samplekit.drawing.drawing import Bitmap, Drawing, Text, label, rgb
+from samplekit.drawing.raster import draw_pixels
 from samplekit.images.png import write_png
-from samplekit_spectrum.drawing import Bitmap, Drawing, Text, label, rgb
 from samplekit_spectrum.frequencies import Cube
-from samplekit_spectrum.raster import draw_pixels
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

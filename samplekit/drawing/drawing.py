@@ -66,6 +66,18 @@ class Bitmap:
     y: int
 
 
+@dataclass(frozen=True, eq=False)
+class Disks:
+    """Filled disks of one radius around the centres float64[n, 2]."""
+
+    centres: NDArray[np.float64]
+    radius: float
+    colour: str = CURVE
+
+
+Item = Text | Line | Band | Bitmap | Disks
+
+
 @dataclass
 class Drawing:
     """Everything, in the order of drawing."""
@@ -73,9 +85,9 @@ class Drawing:
     width: int
     height: int
     title: str
-    items: list[Text | Line | Band | Bitmap] = field(default_factory=list)
+    items: list[Item] = field(default_factory=list)
 
-    def add(self, *items: Text | Line | Band | Bitmap) -> None:
+    def add(self, *items: Item) -> None:
         """Draw on top of what is there."""
         self.items.extend(items)
 

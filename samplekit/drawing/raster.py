@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from samplekit.drawing.drawing import PAPER, Band, Bitmap, Disks, Drawing, Line, Text, rgb
 from samplekit.images.text import Label, draw, printable
-from samplekit_spectrum.drawing import PAPER, Band, Bitmap, Drawing, Line, Text, rgb
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _DASH, _GAP = 5.0, 4.0
+_DISKS = 1 << 14
 
 
 def draw_pixels(drawing: Drawing, scale: int = 1) -> NDArray[np.uint8]:
@@ -28,6 +29,8 @@ def draw_pixels(drawing: Drawing, scale: int = 1) -> NDArray[np.uint8]:
             _draw_line(pixels, item, scale)
         elif isinstance(item, Band):
             _draw_band(pixels, item, scale)
+        elif isinstance(item, Disks):
+            _draw_disks(pixels, item, scale)
         else:
             _draw_bitmap(pixels, item, scale)
     return _draw_texts(pixels, texts, scale)
@@ -98,6 +101,25 @@ def _draw_band(pixels: NDArray[np.uint8], band: Band, scale: int) -> None:
     rows = np.arange(height)[:, None]
     coverage[:, columns] = np.clip(np.minimum(rows + 1.0, bottom) - np.maximum(rows, top), 0.0, 1.0)
     _blend(pixels, coverage, band.colour)
+
+
+def _draw_disks(pixels: NDArray[np.uint8], disks: Disks, scale: int) -> None:
+    """Blend the union of the disks: a pixel is covered as much as by the disk that covers most of it."""
+    height, width, _ = pixels.shape
+    coverage = np.zeros((height, width))
+    radius = scale * disks.radius
+    reach = math.ceil(radius) + 1
+    steps = np.arange(-reach, reach + 1)
+    for start in range(0, len(disks.centres), _DISKS):
+        centres = scale * disks.centres[start : start + _DISKS]
+        # Pixel i is the interval [i, i + 1]: its middle is half a pixel on.
+        x, y = (np.floor(centres[:, axis, None]).astype(np.int64) + steps for axis in (0, 1))
+        squares = (x + 0.5 - centres[:, 0, None])[:, None, :] ** 2 + (y + 0.5 - centres[:, 1, None])[:, :, None] ** 2
+        covered = np.clip(radius + 0.5 - np.sqrt(squares), 0.0, 1.0)
+        inside = ((y >= 0) & (y < height))[:, :, None] & ((x >= 0) & (x < width))[:, None, :]
+        places = (y[:, :, None] * width + x[:, None, :])[inside]
+        np.maximum.at(coverage.reshape(-1), places, covered[inside])
+    _blend(pixels, coverage, disks.colour)
 
 
 def _blend(pixels: NDArray[np.uint8], coverage: NDArray[np.float64], colour: str) -> None:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 from xml.sax.saxutils import escape
 
+from samplekit.drawing.drawing import PAPER, Band, Disks, Drawing, Item, Line, Text
 from samplekit.images.metadata import encode
-from samplekit_spectrum.drawing import PAPER, Band, Bitmap, Drawing, Line, Text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -31,7 +31,7 @@ def svg_text(drawing: Drawing, metadata: Mapping[str, Any]) -> str:
     return "\n".join(lines)
 
 
-def _element(item: Text | Line | Band | Bitmap) -> str:
+def _element(item: Item) -> str:
     if isinstance(item, Text):
         return (
             f'<text x="{_number(item.x)}" y="{_number(item.y)}" font-size="{item.size}" '
@@ -47,6 +47,11 @@ def _element(item: Text | Line | Band | Bitmap) -> str:
         there = zip(item.x, item.high, strict=True)
         back = zip(item.x[::-1], item.low[::-1], strict=True)
         return f'<path d="{_path([*there, *back])}Z" fill="{item.colour}"/>'
+    if isinstance(item, Disks):
+        circles = "".join(
+            f'<circle cx="{_number(x)}" cy="{_number(y)}" r="{_number(item.radius)}"/>' for x, y in item.centres
+        )
+        return f'<g fill="{item.colour}">{circles}</g>'
     raise TypeError("a bitmap cannot be drawn as SVG")
 
 
