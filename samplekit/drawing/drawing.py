@@ -106,6 +106,11 @@ def rgb(colour: str) -> tuple[int, int, int]:
     return int(colour[1:3], 16), int(colour[3:5], 16), int(colour[5:7], 16)
 
 
+def blended(colour: str, share: float) -> str:
+    """Return ``#rrggbb`` mixed with white, of which it has the given share."""
+    return "#" + "".join(f"{round(component + share * (255 - component)):02x}" for component in rgb(colour))
+
+
 def label(value: float) -> str:
     """Write a number as it stands on an axis."""
     mantissa, e, exponent = f"{value:.4g}".partition("e")
