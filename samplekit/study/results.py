@@ -111,8 +111,8 @@ class Row:
         narrows the interval.
     reference_error, reference_kind
         Bound of the reference's error in any pixel, 0: exact; in words.
-    invalid_samples
-        Samples at which the scene was not finite; such pixels are left out of the errors.
+    invalid_pixels
+        Pixels of all trials whose estimate was not finite; they are left out of the errors.
     times
         None where none were taken.
     time
@@ -144,7 +144,7 @@ class Row:
     ratio: Interval | None
     reference_error: float
     reference_kind: str
-    invalid_samples: int
+    invalid_pixels: int
     times: Times | None
     time: float | None
     fitted: bool
@@ -217,7 +217,8 @@ class Choice:
 class Flip:
     """A cost of a sample at which two samplers change places in the time that they need for the target error.
 
-    Below ``cost`` (in nanoseconds) ``below`` needs less time, above it ``above``.
+    Below ``cost`` (in nanoseconds) ``below`` needs less time, above it ``above``. ``leads``: of all samplers, these two
+    need the least there.
     """
 
     scene: str
@@ -225,6 +226,7 @@ class Flip:
     cost: float
     below: str
     above: str
+    leads: bool
 
 
 @dataclass(frozen=True)
@@ -250,13 +252,13 @@ class Results:
         taken.
     scenes, samplers, counts, trials, size, seed
         What was asked for.
-    threads, processes
-        How errors were computed, which do not depend on it; times are those of one thread.
+    workers
+        What computed the errors, which do not depend on it; times are those of one thread of ``machine``.
     cost
         Nanoseconds that were added for each sample.
     target
-        The error of ``to_target`` and ``flips`` for each scene; those not given are chosen: the geometric middle of
-        what all samplers of that scene reach.
+        The error of ``to_target`` and ``flips`` for each scene: the one that was asked for, or the largest that some
+        sampler is left with at its largest count, so that all get there.
     complete
         False: interrupted, and some rows have fewer trials.
     rows
@@ -276,8 +278,7 @@ class Results:
     trials: int
     size: tuple[int, int]
     seed: int
-    threads: int
-    processes: int
+    workers: str
     cost: float
     target: dict[str, float]
     complete: bool
