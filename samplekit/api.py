@@ -10,6 +10,7 @@ from samplekit.integration.configured import ConfiguredScene, configured_scene
 from samplekit.integration.estimator import UNIT_SQUARE, Estimator, Seconds
 from samplekit.integration.plan import check_points, make_plan
 from samplekit.integration.renderer import Rendering, render_plan
+from samplekit.memory import check_memory
 from samplekit.parsing import check_positive
 from samplekit.registry import Plugin, registry
 from samplekit.sampling.configured import ConfiguredSampler, configured_sampler
@@ -21,6 +22,9 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from samplekit.specs import SamplerSpec, SceneSpec
+
+_BYTES_PER_REALIZATION = 9 * 8
+"""Its estimate and sum, its box of four numbers, its key and its pixel."""
 
 sampler = configured_sampler
 scene = configured_scene
@@ -159,12 +163,12 @@ def estimate(
     """
     integrand, source = _scene(scene), _sampler(sampler)
     check_points(integrand, source, count)
-    check_seed(seed)
-    check_positive("realizations", realizations)
-    source.prepare(int(count), integrand.dims)
+    seed, count, realizations = check_seed(seed), int(count), check_positive("realizations", realizations)
+    check_memory(_BYTES_PER_REALIZATION * realizations, "these estimates")
+    source.prepare(count, integrand.dims)
     boxes = np.repeat(np.array(UNIT_SQUARE)[:, None], realizations, axis=1)
-    return Estimator(integrand, source, int(count)).means(
-        Realizations.of_trials(0, int(realizations), seed, integrand.blocks), boxes, Seconds()
+    return Estimator(integrand, source, count).means(
+        Realizations.of_trials(0, realizations, seed, integrand.blocks), boxes, Seconds()
     )
 
 

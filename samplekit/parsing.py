@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import operator
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import SupportsIndex
 
 from samplekit.errors import UsageError
+from samplekit.quoting import quoted
 
 LARGEST_SEED = 2**64 - 1
+LARGEST_SIDE = 2**31
+"""Of an image, in pixels."""
 _MOST_COUNTS = 1000
 
 
@@ -45,8 +49,9 @@ def parse_choice(text: str, kind: str) -> Choice:
         if option.strip() in options:
             raise UsageError(f"{kind} {text!r}: option {option.strip()!r} is given twice")
         options[option.strip()] = value.strip()
-    if not re.fullmatch(r"[A-Za-z0-9/_.-]+", name):
-        raise UsageError(f"{kind} {text!r}: expected NAME or NAME:option=value,...")
+    for chosen_name in (name, *randomizers):
+        if not re.fullmatch(r"([A-Za-z0-9_.-]+/)?[A-Za-z0-9_.-]+", chosen_name):
+            raise UsageError(f"{kind} {text!r}: expected NAME or NAME:option=value,...")
     return Choice(name, options, randomizers[0] if randomizers else None)
 
 
@@ -157,17 +162,53 @@ def parse_crop(text: str, size: tuple[int, int]) -> tuple[int, int, int, int]:
     return check_crop((x, y, w, h), size)
 
 
-def check_crop(crop: tuple[int, int, int, int], size: tuple[int, int]) -> tuple[int, int, int, int]:
-    """The crop, if it is a rectangle inside the image.
+def check_size(size: tuple[int, int]) -> tuple[int, int]:
+    """Width and height, as Python's integers.
 
     Raises
     ------
     UsageError
-        It is empty or not inside.
+        They are not two integers from 1 to 2^31.
     """
-    x, y, w, h = crop
+    sides = _integers(size, 2)
+    if sides is None or not all(1 <= side <= LARGEST_SIDE for side in sides):
+        raise UsageError(f"size {_shown(size)}: expected width and height from 1 to {LARGEST_SIDE}")
+    return sides[0], sides[1]
+
+
+def _integers(values: object, number: int) -> tuple[int, ...] | None:
+    """So many integers, or None if they are not."""
+    if not isinstance(values, Iterable) or isinstance(values, (str, bytes)):
+        return None
+    listed = tuple(values)
+    if len(listed) != number or any(isinstance(v, bool) or not isinstance(v, SupportsIndex) for v in listed):
+        return None
+    try:
+        return tuple(operator.index(value) for value in listed)
+    except TypeError:
+        return None
+
+
+def _shown(values: object) -> str:
+    return "x".join(map(str, values)) if isinstance(values, (tuple, list)) else quoted(values)
+
+
+def check_crop(crop: tuple[int, int, int, int], size: tuple[int, int]) -> tuple[int, int, int, int]:
+    """The crop as Python's integers, if it is a rectangle inside the image.
+
+    Raises
+    ------
+    UsageError
+        It is empty or not inside, or not four integers.
+    """
+    numbers = _integers(crop, 4)
+    if numbers is None:
+        raise UsageError(
+            f"crop {quoted(crop)}: expected (x, y, width, height) inside the image of {size[0]}x{size[1]} pixels"
+        )
+    x, y, w, h = numbers
     if min(x, y) < 0 or min(w, h) < 1 or x + w > size[0] or y + h > size[1]:
         raise UsageError(
             f"crop {x},{y},{w},{h}: expected a rectangle X,Y,W,H inside the image of {size[0]}x{size[1]} pixels"
         )
-    return crop
+    return x, y, w, h

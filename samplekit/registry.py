@@ -6,10 +6,12 @@ a name of theirs is found without looking at any other plugin, and nobody can ta
 
 from __future__ import annotations
 
+import contextlib
 import difflib
 import functools
 import os
-from dataclasses import dataclass, field
+import sys
+from dataclasses import dataclass, field, replace
 from importlib.metadata import entry_points
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -17,6 +19,7 @@ import pluggy
 
 from samplekit import hookspecs
 from samplekit.errors import UsageError
+from samplekit.quoting import quoted, reason
 from samplekit.specs import CommandSpec, RandomizerSpec, SamplerSpec, SceneSpec
 
 if TYPE_CHECKING:
@@ -58,6 +61,12 @@ class Offer:
 
     spec: Any
     plugin: Plugin
+    asked_for: str = ""
+
+    @property
+    def called(self) -> str:
+        """The name that chooses it: with the plugin's where it was asked for so."""
+        return self.asked_for or str(self.spec.name)
 
 
 class Registry:
@@ -82,15 +91,18 @@ class Registry:
         UsageError
             Unknown (the nearest names, and the plugins that failed to load), or offered by two plugins.
         """
-        plugin_name, _, plain = name.rpartition("/")
+        plugin_name, slash, plain = name.rpartition("/")
         offers = self._offers[kind].get(plain, [])
         if not offers or (plugin_name and plugin_name != BUILTIN):
             self.discover()
             offers = self._offers[kind].get(plain, [])
         if plugin_name:
             offers = [offer for offer in offers if offer.plugin.name == plugin_name]
+        if slash and not plugin_name:
+            offers = []
         if len(offers) == 1:
-            return offers[0]
+            (offer,) = offers
+            return replace(offer, asked_for=name) if plugin_name not in ("", BUILTIN) else offer
         if offers:
             both = " and ".join(str(offer.plugin) for offer in offers)
             choices = " or ".join(f"{offer.plugin.name}/{plain}" for offer in offers)
@@ -125,9 +137,10 @@ class Registry:
                 self.plugins.append(plugin)
                 continue
             try:
-                module = entry.load()
+                with _printing_apart():
+                    module = entry.load()
             except (Exception, SystemExit) as error:
-                plugin.problems.append(f"cannot be imported: {_one_line(error)}")
+                plugin.problems.append(f"cannot be imported: {reason(error)}")
                 self.plugins.append(plugin)
                 continue
             self._add(plugin, module)
@@ -139,7 +152,7 @@ class Registry:
         except (Exception, SystemExit) as error:
             # Registering is not transactional: take back what pluggy kept.
             self._manager.unregister(name=plugin.name)
-            plugin.problems.append(f"cannot be registered: {_one_line(error)}")
+            plugin.problems.append(f"cannot be registered: {reason(error)}")
             return
         callers = self._manager.get_hookcallers(module) or []
         unknown = sorted(caller.name for caller in callers if not caller.has_spec())
@@ -156,13 +169,14 @@ class Registry:
 
     def _collect(self, kind: Kind, plugin: Plugin, hook: Any) -> None:
         try:
-            specs = list(hook())
+            with _printing_apart():
+                specs = list(hook())
         except (Exception, SystemExit) as error:
-            plugin.problems.append(f"samplekit_{kind}s failed: {_one_line(error)}")
+            plugin.problems.append(f"samplekit_{kind}s failed: {reason(error)}")
             return
         for spec in specs:
             if not isinstance(spec, _TYPES[kind]):
-                plugin.problems.append(f"samplekit_{kind}s gave {spec!r:.60}, not a {_TYPES[kind].__name__}")
+                plugin.problems.append(f"samplekit_{kind}s gave {quoted(spec)}, not a {_TYPES[kind].__name__}")
                 continue
             self._accept(kind, plugin, spec)
 
@@ -197,6 +211,11 @@ def registry() -> Registry:
     return Registry()
 
 
+def _printing_apart() -> contextlib.AbstractContextManager[object]:
+    """What a plugin prints goes to standard error: results go to standard output, and must stand alone there."""
+    return contextlib.redirect_stdout(sys.stderr)
+
+
 def _own_version() -> str:
     from samplekit import __version__
 
@@ -214,7 +233,3 @@ def _distribution(entry: EntryPoint) -> tuple[str, str]:
 def _names_in(variable: str) -> set[str] | None:
     value = os.environ.get(variable)
     return None if value is None else {name.strip() for name in value.split(",") if name.strip()}
-
-
-def _one_line(error: BaseException) -> str:
-    return f"{type(error).__name__}: {' '.join(str(error).split())}"[:200]

@@ -34,3 +34,10 @@ def test_a_name_that_is_not_there():
 def test_every_installed_plugin_is_whole():
     for plugin in samplekit.plugins():
         assert plugin.problems == []
+
+
+def test_what_the_memory_cannot_hold_is_refused_before_it_is_tried():
+    with pytest.raises(samplekit.SamplekitError, match="these points need"):
+        samplekit.points("random", 4, realizations=10**15, dims=100)
+    with pytest.raises(samplekit.SamplekitError, match="these estimates need"):
+        samplekit.estimate("disk", "random", 4, realizations=10**15)

@@ -36,9 +36,9 @@ def test_scenes_have_options_alone():
 @pytest.mark.parametrize(
     "text",
     [
-        "", " ", ":", "+owen", "sobol+", "sobol+owen+shift", "sobol:", "sobol:a", "sobol:a=", "sobol:=1", "sobol:a=1,",
-        "sobol:,a=1", "sobol:a=1,a=2", "sobol:a =1,a= 2", "so bol", "sobol\n", "söbol", "日本", "sobol;ls", "a\0b",
-        "'sobol'", "+", "++", "*",
+        "", " ", ":", "+owen", "sobol+", "/sobol", "a//sobol", "sobol+/owen", "sobol+owen+shift", "sobol:", "sobol:a",
+        "sobol:a=", "sobol:=1", "sobol:a=1,", "sobol:,a=1", "sobol:a=1,a=2", "sobol:a =1,a= 2", "so bol", "sobol\n",
+        "söbol", "日本", "sobol;ls", "a\0b", "'sobol'", "+", "++", "*",
     ],
 )  # fmt: skip
 def test_other_texts_are_refused_in_one_line_that_repeats_them(text):

@@ -3,6 +3,7 @@
 import math
 import subprocess
 import sys
+import types
 from decimal import Decimal
 from fractions import Fraction
 
@@ -125,6 +126,24 @@ def test_a_declaration_for_a_newer_interface_is_refused(kind):
         {"largest_index": 2**64},
         {"promises": ("net",)},
         {"promises": (Net,)},
+        {"promises": [Net()]},
+        {"randomized": 1},
+        {"unbiased": None},
+        {"period": 2.5},
+        {"period": True},
+        {"largest_index": 2.0**20},
+        {"screen_block": 1},
+        {"screen_block": 16.0},
+        {"api_version": "1"},
+        {"reference": object()},
+        {"reference": "two\nlines"},
+        {"expected_failures": [object()]},
+        {"expected_failures": {"range": object()}},
+        {"expected_failures": {5: "why"}},
+        {"expected_failures": {"range": "two\nlines"}},
+        {"fresh_options": {"k": 1}},
+        {"fresh_options": {"k": object()}, "options": (Option("k", 1),)},
+        {"fresh_options": {"k": 5}, "options": (Option("k", 1, "", 0, 3),)},
     ],
 )
 def test_nonsense_about_a_sampler_is_refused_with_its_name(more):
@@ -132,10 +151,57 @@ def test_nonsense_about_a_sampler_is_refused_with_its_name(more):
         sampler(**more)
 
 
-@pytest.mark.parametrize("summary", [None, 5, ["a"]])
-def test_a_summary_is_text(summary):
+@pytest.mark.parametrize("summary", [None, 5, ["a"], "two\nlines", "a\ttab", "\x1b[31mred"])
+def test_a_summary_is_text_of_one_line(summary):
     with pytest.raises(ValueError, match="summary"):
         SceneSpec("toy", "toys:Toy", summary)
+    with pytest.raises(ValueError, match="summary"):
+        Option("k", 1, summary)
+
+
+@pytest.mark.parametrize(
+    "declare",
+    [
+        lambda: Option("k", math.inf, maximum=math.inf),
+        lambda: Option("k", math.nan),
+        lambda: Option("k", 1j),
+        lambda: Option("k", None),
+        lambda: Option("k", 1.0, minimum=math.nan),
+        lambda: Option("k", 1.0, minimum="0"),
+        lambda: Option("k", 5, maximum=4),
+        lambda: Option("k", "c", choices=("a", "b")),
+        lambda: Option("k", "a", choices=["a", "b"]),
+        lambda: Option("k", "a", choices="a"),
+        lambda: Option("k", 1, required="yes"),
+        lambda: Net(dims=[0, 1]),
+        lambda: Net(dims=()),
+        lambda: Net(dims=(0, 0)),
+        lambda: Net(base=1),
+        lambda: Net(t=-1),
+        lambda: LatinStrata(dims=(-1,)),
+        lambda: GridStrata(block=0),
+        lambda: OrthogonalArray(strength=2.0),
+        lambda: MinimumDistance(math.nan),
+        lambda: MinimumDistance(1.5),
+        lambda: RandomizerSpec("toy", "a:b", "", keeps=("nets",)),
+        lambda: RandomizerSpec("toy", "a:b", "", keeps="net"),
+        lambda: RandomizerSpec("toy", "a:b", "", largest_index=None),
+        lambda: SceneSpec("toy", "a:b", "", purposes=5),
+        lambda: SceneSpec("toy", "a:b", "", purposes=(("pixels", 2),)),
+        lambda: SceneSpec("toy", "a:b", "", purposes=(("pixel", 0),)),
+    ],
+)
+def test_nonsense_in_the_parts_of_a_declaration_is_refused(declare):
+    with pytest.raises(ValueError, match=r"."):
+        declare()
+
+
+def test_mappings_are_taken_as_plain_copies():
+    reasons = {"range": "might reach 1"}
+    spec = sampler(expected_failures=types.MappingProxyType(reasons))
+    assert type(spec.expected_failures) is dict
+    reasons["shape"] = "later"
+    assert spec.expected_failures == {"range": "might reach 1"}
 
 
 def test_what_a_sampler_may_declare_is_taken():

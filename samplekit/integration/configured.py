@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
-from samplekit.errors import SamplekitError, UsageError
-from samplekit.parsing import check_positive, parse_choice
+from samplekit.errors import UsageError
+from samplekit.guard import Guard
+from samplekit.parsing import parse_choice
 from samplekit.registry import BUILTIN, Offer, registry
 from samplekit.specs import PIXEL_FILTER, written
 
@@ -43,15 +44,21 @@ class ConfiguredScene:
     def __init__(self, offer: Offer, options: Mapping[str, object]) -> None:
         spec: SceneSpec = offer.spec
         values = spec.parse_options(options)
-        self.text = written(spec.name, options, values)
+        self.text = written(offer.called, options, values)
         self.at_centre = values.pop(PIXEL_FILTER.name, PIXEL_FILTER.default) != PIXEL_FILTER.default
         self.spec = spec
         self.plugin = offer.plugin
         self._trusted = offer.plugin.name == BUILTIN
+        self._guard = Guard(f"scene {offer.called}", offer.plugin)
         implementation = spec.load()
         keywords = {name.replace("-", "_"): value for name, value in values.items()}
-        self._scene: Scene = self._guarded("be set up", lambda: implementation(**keywords))
-        self.needs = self._guarded("tell its dimensions", lambda: _checked_needs(self._scene.dimensions()))
+        self._scene: Scene = self._guarded("be set up", lambda: implementation(**keywords), _is_scene, "a Scene")
+        self.needs = self._guarded(
+            "tell its dimensions",
+            lambda: dict(self._scene.dimensions()),
+            _are_needs,
+            "a positive number of dimensions for each purpose",
+        )
         if self.at_centre:
             self.needs.pop("pixel", None)
         if not self.needs:
@@ -116,30 +123,33 @@ class ConfiguredScene:
         x_edges: NDArray[np.float64],
         y_edges: NDArray[np.float64],
     ) -> NDArray[np.float64]:
-        image = self._guarded(what, call)
-        if np.shape(image) != (y_edges.size - 1, x_edges.size - 1):
-            raise SamplekitError(
-                f"scene {self.text} of plugin {self.plugin} cannot {what}: wrong shape {np.shape(image)}"
-            )
-        return np.asarray(image, np.float64)
+        shape = y_edges.size - 1, x_edges.size - 1
+        return self._guarded(
+            what,
+            lambda: np.asarray(call(), np.float64),
+            lambda image: image.shape == shape,
+            f"an array of shape {shape}",
+        )
 
-    def _guarded(self, what: str, call: Callable[[], T]) -> T:
-        try:
-            # Values that are not finite are counted and reported; a warning for each would drown that.
-            with np.errstate(all="ignore"):
-                return call()
-        except UsageError:
-            raise
-        except (Exception, SystemExit) as error:
-            message = " ".join(str(error).split())
-            raise SamplekitError(
-                f"scene {self.spec.name} of plugin {self.plugin} cannot {what}: {type(error).__name__}: {message}"
-            ) from error
+    def _guarded(
+        self, what: str, call: Callable[[], T], valid: Callable[[T], bool] = lambda _: True, expected: str = ""
+    ) -> T:
+        # Values that are not finite are counted and reported; a warning for each would drown that.
+        with np.errstate(all="ignore"):
+            return self._guard(f"cannot {what}", call, valid, expected)
 
 
-def _checked_needs(needs: Mapping[str, int]) -> dict[str, int]:
-    """The dimensions by purpose, if they are positive integers."""
-    return {purpose: check_positive(f"the dimensions of {purpose}:", number) for purpose, number in needs.items()}
+def _is_scene(made: object) -> bool:
+    from samplekit.integration.scene import Scene
+
+    return isinstance(made, Scene)
+
+
+def _are_needs(needs: dict[str, int]) -> bool:
+    return bool(needs) and all(
+        isinstance(purpose, str) and isinstance(number, int) and not isinstance(number, bool) and number >= 1
+        for purpose, number in needs.items()
+    )
 
 
 def _centres(edges: NDArray[np.float64]) -> NDArray[np.float64]:

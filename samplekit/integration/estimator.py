@@ -134,11 +134,15 @@ class Estimator:
         """The estimate that ``count`` samples of one value give, in the same order of summation."""
         from samplekit.numerics.row_sums import row_sums
 
-        total = PairwiseSum()
-        for start in range(0, self.count, BLOCK):
-            block_sum = np.empty(1)
-            row_sums(np.full((1, min(BLOCK, self.count - start)), value), block_sum)
-            total.add(block_sum)
+        def block_sum(samples: int) -> NDArray[np.float64]:
+            out = np.empty(1)
+            row_sums(np.full((1, samples), value), out)
+            return out
+
+        blocks, rest = divmod(self.count, BLOCK)
+        total = PairwiseSum.of_equal(block_sum(BLOCK), blocks)
+        if rest:
+            total.add(block_sum(rest))
         return float(total.total()[0] / self.count)
 
     def _buffer(self, pixels: int) -> NDArray[np.float64]:

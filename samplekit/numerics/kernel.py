@@ -10,6 +10,7 @@ from __future__ import annotations
 import functools
 import hashlib
 import importlib
+import os
 import sys
 import types
 from collections.abc import Callable
@@ -23,6 +24,10 @@ from numba.core import types as numba_types
 from numba.extending import intrinsic, overload
 
 Function = TypeVar("Function", bound=Callable[..., Any])
+
+if not Path(os.path.expanduser("~")).is_absolute() and not config.CACHE_DIR:  # noqa: PTH111 - pathlib's raises
+    # A user without a home: numba would make a folder called "~" where the process happens to run.
+    config.CACHE_LOCATOR_CLASSES = "InTreeCacheLocator"
 
 _PACKAGE = Path(__file__).parent.parent
 _FOLDERS_WITH_HELPERS = ("numerics", "sampling")
@@ -42,6 +47,18 @@ def _keyed_by_helpers(function: types.FunctionType) -> types.FunctionType:
     code = function.__code__.replace(co_freevars=("helpers_digest",))
     closure = (types.CellType(_helpers_digest()),)
     return types.FunctionType(code, function.__globals__, function.__name__, function.__defaults__, closure)
+
+
+def _cached(function: types.FunctionType, signature: str) -> Any:
+    compiled = numba.njit(nogil=True, cache=True, error_model="numpy")(_keyed_by_helpers(function))
+    try:
+        compiled.compile(signature)
+    except Exception:
+        # A damaged index or entry would be met again by every process: emptied, the cache is written anew.
+        compiled._cache.flush()  # noqa: SLF001 - numba has no other way
+        compiled.compile(signature)
+    compiled.disable_compile()
+    return compiled
 
 
 def _import_without_scipy(module: str) -> None:
@@ -70,12 +87,11 @@ def kernel(signature: str) -> Callable[[Function], Function]:
     def compile_kernel(function: Function) -> Function:
         if config.DISABLE_JIT:
             return np.errstate(over="ignore")(function)
-        keyed = _keyed_by_helpers(cast("types.FunctionType", function))
         _import_without_scipy("numba.np.arraymath")
         try:
-            compiled = numba.njit(signature, nogil=True, cache=True, error_model="numpy")(keyed)
+            compiled = _cached(cast("types.FunctionType", function), signature)
         except Exception:
-            # An unwritable or damaged cache; a fault of the kernel itself shows again on the next line.
+            # No cache can be written; a fault of the kernel itself shows again on the next line.
             compiled = numba.njit(signature, nogil=True, error_model="numpy")(function)
         return cast("Function", compiled)
 

@@ -79,6 +79,15 @@ class PairwiseSum:
     def __init__(self) -> None:
         self._levels: list[NDArray[np.float64] | None] = []
 
+    @classmethod
+    def of_equal(cls, block_sums: NDArray[np.float64], number: int) -> PairwiseSum:
+        """What ``number`` blocks of the same sums float64[P] add up to, in the time of log2(number) additions."""
+        made, power = cls(), block_sums.copy()
+        for level in range(number.bit_length()):
+            power = power + power if level else power
+            made._levels.append(power if number >> level & 1 else None)
+        return made
+
     def add(self, block_sums: NDArray[np.float64]) -> None:
         """Add the sums float64[P] of the next block."""
         carry = block_sums.copy()

@@ -8,10 +8,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from samplekit.counts import check_count
-from samplekit.errors import SamplekitError, UsageError
+from samplekit.errors import UsageError
+from samplekit.guard import Guard
+from samplekit.memory import check_memory
 from samplekit.parsing import check_positive, parse_choice
 from samplekit.registry import BUILTIN, Offer, registry
 from samplekit.sampling.realizations import Realizations, check_seed
+from samplekit.sampling.sampler import Sampler
 from samplekit.specs import written
 
 if TYPE_CHECKING:
@@ -19,7 +22,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from samplekit.sampling.sampler import Sampler
+    from samplekit.sampling.randomizer import Randomizer
     from samplekit.specs import OptionValue, RandomizerSpec, SamplerSpec
 
 
@@ -38,18 +41,15 @@ class ConfiguredSampler:
         spec: SamplerSpec = offer.spec
         values = spec.parse_options(options)
         self.plugin = offer.plugin
-        self.text = written(spec.name, options, values) + (f"+{randomizer.spec.name}" if randomizer else "")
-        self._trusted = all(o.plugin.name == BUILTIN for o in (offer, randomizer) if o)
+        self.text = written(offer.called, options, values) + (f"+{randomizer.called}" if randomizer else "")
         self._offers = offer, randomizer
         self._options = dict(options)
-        self._sampler: Sampler = _construct(offer, values)
+        self._sampler = _sampler(offer, values)
         spec = self._sampler.refine(spec)
         if randomizer:
             from samplekit.sampling.randomizer import RandomizedSampler
 
-            self._sampler = RandomizedSampler(
-                self._sampler, _construct(randomizer, randomizer.spec.parse_options({})), randomizer.spec.name
-            )
+            self._sampler = RandomizedSampler(self._sampler, _randomizer(randomizer), randomizer.spec.name)
             spec = _randomized(spec, randomizer.spec)
         self.spec = spec
 
@@ -77,12 +77,7 @@ class ConfiguredSampler:
         SamplekitError
             The plugin raised.
         """
-        try:
-            self._sampler.prepare(count, dims, progress)
-        except SamplekitError:
-            raise
-        except (Exception, SystemExit) as error:
-            raise self._failure(error) from error
+        self._sampler.prepare(count, dims, progress)
 
     def notes(self, count: int, dims: int) -> list[str]:
         """What a user of these sets should know; see :meth:`Sampler.notes`."""
@@ -106,20 +101,15 @@ class ConfiguredSampler:
             The plugin raised.
         """
         least, most = self.spec.dimensions
-        check_positive("dims", dims)
-        check_positive("count", count)
+        # As Python's integers: NumPy's overflow.
+        dims, count = check_positive("dims", dims), check_positive("count", count)
         if dims < least or (most is not None and dims > most):
             span = f"{least}" if most == least else f"at least {least}" if most is None else f"{least} to {most}"
             raise UsageError(f"{self.text} makes points in {span} dimension{'' if most == 1 else 's'}, not {dims}")
         if count - 1 > self.spec.largest_index:
             raise UsageError(f"{self.text} makes at most {self.spec.largest_index + 1} points, not {count}")
-        check_count(self.text, self.spec.counts, int(count), int(dims))
-        try:
-            self._sampler.check(int(count), int(dims), blocks)
-        except SamplekitError:
-            raise
-        except (Exception, SystemExit) as error:
-            raise self._failure(error) from error
+        check_count(self.text, self.spec.counts, count, dims)
+        self._sampler.check(count, dims, blocks)
 
     def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets, see :meth:`Sampler.fill`; a plugin's points are checked, and its faults named.
@@ -129,24 +119,7 @@ class ConfiguredSampler:
         SamplekitError
             The plugin raised, or wrote values outside [0, 1), or left some unwritten.
         """
-        if self._trusted:
-            self._sampler.fill(out, realizations, count, start)
-            return
-        out.fill(np.nan)
-        try:
-            self._sampler.fill(out, realizations, count, start)
-        except UsageError:
-            raise
-        except (Exception, SystemExit) as error:
-            raise self._failure(error) from error
-        low, high = out.min(), out.max()
-        if not (low >= 0.0 and high < 1.0):
-            wrong = "NaN or values it did not write" if np.isnan(low) else f"{float(low if low < 0 else high)!r}"
-            raise SamplekitError(f"sampler {self.text} of plugin {self.plugin} gave {wrong}: expected values in [0, 1)")
-
-    def _failure(self, error: BaseException) -> SamplekitError:
-        message = " ".join(str(error).split())
-        return SamplekitError(f"sampler {self.text} of plugin {self.plugin} failed: {type(error).__name__}: {message}")
+        self._sampler.fill(out, realizations, count, start)
 
     def points(
         self,
@@ -184,10 +157,13 @@ class ConfiguredSampler:
         whole = all(isinstance(edge, (int, np.integer)) and not isinstance(edge, bool) for edge in (start, stop))
         if not whole or not 0 <= start < stop <= count:
             raise UsageError(f"slice {start}:{stop}: expected integers with 0 <= start < stop <= {count}")
-        check_positive("realizations", realizations)
-        self.prepare(int(count), int(dims))
-        out = np.empty((int(realizations), int(dims), stop - start))
-        self.fill(out, Realizations.of_trials(0, int(realizations), seed), int(count), start)
+        count, dims, realizations = int(count), int(dims), check_positive("realizations", realizations)
+        start, stop = int(start), int(stop)
+        # A float64 as the sampler makes it, and another in the order that is returned.
+        check_memory(2 * 8 * realizations * dims * (stop - start), "these points")
+        self.prepare(count, dims)
+        out = np.empty((realizations, dims, stop - start))
+        self.fill(out, Realizations.of_trials(0, realizations, seed), count, start)
         return np.ascontiguousarray(out.transpose(0, 2, 1))
 
 
@@ -205,18 +181,34 @@ def configured_sampler(text: str, **options: object) -> ConfiguredSampler:
     return ConfiguredSampler(registry().find("sampler", choice.name), given, randomizer)
 
 
-def _construct(offer: Offer, values: Mapping[str, OptionValue]) -> Any:
+def _sampler(offer: Offer, values: Mapping[str, OptionValue]) -> Sampler:
+    """The sampler of a declaration, under guard if it is a plugin's."""
+    guard = Guard(f"sampler {offer.called}", offer.plugin)
+    made: Sampler = _made(offer, values, guard, lambda made: isinstance(made, Sampler), "a Sampler")
+    if offer.plugin.name == BUILTIN:
+        return made
+    from samplekit.sampling.guarded import GuardedSampler
+
+    return GuardedSampler(made, guard)
+
+
+def _randomizer(offer: Offer) -> Randomizer:
+    guard = Guard(f"randomizer {offer.called}", offer.plugin)
+    values = offer.spec.parse_options({})
+    made: Randomizer = _made(offer, values, guard, lambda made: hasattr(made, "apply"), "something with apply")
+    if offer.plugin.name == BUILTIN:
+        return made
+    from samplekit.sampling.guarded import GuardedRandomizer
+
+    return GuardedRandomizer(made, guard)
+
+
+def _made(
+    offer: Offer, values: Mapping[str, OptionValue], guard: Guard, valid: Callable[[Any], bool], expected: str
+) -> Any:
     implementation = offer.spec.load()
     keywords = {name.replace("-", "_"): value for name, value in values.items()}
-    try:
-        return implementation(**keywords)
-    except SamplekitError:
-        raise
-    except (Exception, SystemExit) as error:
-        message = " ".join(str(error).split())
-        raise SamplekitError(
-            f"{offer.spec.name} of plugin {offer.plugin} cannot be set up: {type(error).__name__}: {message}"
-        ) from error
+    return guard("cannot be set up", lambda: implementation(**keywords), valid, expected)
 
 
 def _randomized(sampler: SamplerSpec, randomizer: RandomizerSpec) -> SamplerSpec:
@@ -225,6 +217,7 @@ def _randomized(sampler: SamplerSpec, randomizer: RandomizerSpec) -> SamplerSpec
         randomized=True,
         unbiased=randomizer.unbiased,
         period=None,
+        screen_block=None,
         promises=tuple(promise for promise in sampler.promises if promise.keyword in randomizer.keeps),
         largest_index=min(sampler.largest_index, randomizer.largest_index),
     )

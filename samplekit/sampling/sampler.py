@@ -48,7 +48,8 @@ class Sampler:
         """
         dims, points = out.shape[1:]
         for row, key in enumerate(realizations.keys):
-            rng = np.random.Generator(np.random.Philox(key=int(key)))
+            # Seeded by a sequence: a generator that cannot spawn others is refused by libraries that do.
+            rng = np.random.Generator(np.random.Philox(np.random.SeedSequence(int(key))))
             drawn = np.asarray(self.draw(count, dims, rng), np.float64)
             if drawn.shape != (count, dims):
                 raise SamplekitError(f"draw gave shape {drawn.shape}, expected {(count, dims)}")

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import contextlib
 import importlib
 import re
+import sys
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal, get_args
 
 from samplekit.errors import SamplekitError, UsageError
-from samplekit.specs.option import NAME, Option, OptionValue, require
+from samplekit.quoting import quoted, reason
+from samplekit.specs.option import NAME, Option, OptionValue, is_line, require
 from samplekit.specs.promise import Promise
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 API_VERSION = 1
 TARGET = re.compile(r"^[A-Za-z_][\w.]*:[A-Za-z_]\w*\Z")
@@ -20,6 +21,10 @@ COUNTS = re.compile(
     r"^(any|products|products-in-[1-9]\d*|squares|prime-squares|prime-cubes|fibonacci|(powers-of|exactly)-[1-9]\d*)\Z"
 )
 PROGRESSIVE = re.compile(r"^(no|every-count|powers-of-[1-9]\d*)\Z")
+
+
+def _is_integer(value: object) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool)
 
 
 @dataclass(frozen=True)
@@ -39,12 +44,14 @@ class _Spec:
             isinstance(self.target, str) and bool(TARGET.match(self.target)),
             f"{self.name}: bad target {self.target!r}: want 'package.module:Class'",
         )
-        require(isinstance(self.summary, str), f"{self.name}: the summary must be text")
+        for word in ("summary", "reference"):
+            require(is_line(getattr(self, word)), f"{self.name}: the {word} must be text of one line")
         require(isinstance(self.options, tuple), f"{self.name}: options must be a tuple")
         for option in self.options:
-            require(isinstance(option, Option), f"{self.name}: {option!r} is no Option")
+            require(isinstance(option, Option), f"{self.name}: {quoted(option)} is no Option")
         names = [option.name for option in self.options]
         require(len(set(names)) == len(names), f"{self.name}: an option is declared twice")
+        require(_is_integer(self.api_version), f"{self.name}: api_version must be an integer")
         require(
             self.api_version <= API_VERSION,
             f"{self.name}: made for plugin interface {self.api_version}, this samplekit has {API_VERSION}:"
@@ -61,11 +68,11 @@ class _Spec:
         """
         module, _, attribute = self.target.partition(":")
         try:
-            return getattr(importlib.import_module(module), attribute)
+            # Results go to standard output: what a module prints while it is imported must not stand among them.
+            with contextlib.redirect_stdout(sys.stderr):
+                return getattr(importlib.import_module(module), attribute)
         except (Exception, SystemExit) as error:
-            raise SamplekitError(
-                f"{self.name}: cannot import {self.target}: {type(error).__name__}: {error}"
-            ) from error
+            raise SamplekitError(f"{self.name}: cannot import {self.target}: {reason(error)}") from error
 
     @property
     def required_options(self) -> tuple[str, ...]:
@@ -119,6 +126,10 @@ class SamplerSpec(_Spec):
         The mean of its estimates over realisations is the integral.
     period
         Pixels after which its sets repeat; None: never.
+    screen_block
+        Side B of the aligned squares of B x B pixels that share one sequence, so that their errors cancel when they are
+        seen together: the sets of such a block are different parts of the sequence, all of them together keep every
+        promise that is made of one, and other blocks have other sequences. None: pixels know nothing of each other.
     largest_index
         Largest index of a point.
     promises
@@ -136,6 +147,7 @@ class SamplerSpec(_Spec):
     randomized: bool = field(default=True, kw_only=True)
     unbiased: bool = field(default=True, kw_only=True)
     period: int | None = field(default=None, kw_only=True)
+    screen_block: int | None = field(default=None, kw_only=True)
     largest_index: int = field(default=2**32 - 1, kw_only=True)
     promises: tuple[Promise, ...] = field(default=(), kw_only=True)
     fresh_options: Mapping[str, OptionValue] = field(default_factory=dict, kw_only=True)
@@ -143,27 +155,60 @@ class SamplerSpec(_Spec):
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        who = self.name
         require(
             isinstance(self.dimensions, tuple) and len(self.dimensions) == 2,
-            f"{self.name}: dimensions must be (least, most)",
+            f"{who}: dimensions must be (least, most)",
         )
         least, most = self.dimensions
         require(
-            isinstance(least, int) and least >= 1 and (most is None or (isinstance(most, int) and most >= least)),
-            f"{self.name}: dimensions {self.dimensions} must be (least, most) with 1 <= least <= most, or most None",
+            _is_integer(least) and least >= 1 and (most is None or (_is_integer(most) and most >= least)),
+            f"{who}: dimensions {self.dimensions} must be (least, most) with 1 <= least <= most, or most None",
         )
         require(
             isinstance(self.counts, str) and bool(COUNTS.match(self.counts)),
-            f"{self.name}: unknown counts {self.counts!r}",
+            f"{who}: unknown counts {quoted(self.counts)}",
         )
         require(
             isinstance(self.progressive, str) and bool(PROGRESSIVE.match(self.progressive)),
-            f"{self.name}: unknown progressive {self.progressive!r}",
+            f"{who}: unknown progressive {quoted(self.progressive)}",
         )
-        require(self.period is None or self.period >= 1, f"{self.name}: period must be positive or None")
-        require(0 <= self.largest_index < 2**64, f"{self.name}: largest_index must be from 0 to 2^64 - 1")
+        for word in ("randomized", "unbiased"):
+            require(isinstance(getattr(self, word), bool), f"{who}: {word} must be True or False")
+        require(
+            self.period is None or (_is_integer(self.period) and self.period >= 1),
+            f"{who}: period must be a positive integer or None",
+        )
+        require(
+            self.screen_block is None or (_is_integer(self.screen_block) and self.screen_block >= 2),
+            f"{who}: screen_block must be an integer from 2 on, or None",
+        )
+        require(
+            _is_integer(self.largest_index) and 0 <= self.largest_index < 2**64,
+            f"{who}: largest_index must be from 0 to 2^64 - 1",
+        )
+        require(isinstance(self.promises, tuple), f"{who}: promises must be a tuple")
         for promise in self.promises:
-            require(isinstance(promise, Promise), f"{self.name}: {promise!r} is no promise")
+            require(isinstance(promise, Promise), f"{who}: {quoted(promise)} is no promise")
+        self._require_mappings()
+
+    def _require_mappings(self) -> None:
+        for word in ("fresh_options", "expected_failures"):
+            given = getattr(self, word)
+            require(isinstance(given, Mapping), f"{self.name}: {word} must be a mapping")
+            # A copy of our own: plain data, which nobody else changes.
+            object.__setattr__(self, word, dict(given))
+        require(
+            all(isinstance(check, str) and is_line(why) for check, why in self.expected_failures.items()),
+            f"{self.name}: expected_failures must be names of checks and reasons, text of one line each",
+        )
+        options = {option.name: option for option in self.options}
+        for name, value in self.fresh_options.items():
+            require(name in options, f"{self.name}: fresh_options names {quoted(name)}, which is no option of it")
+            try:
+                options[name].parse(value)
+            except UsageError as error:
+                raise ValueError(f"{self.name}: fresh_options: {error}") from None
 
 
 @dataclass(frozen=True)
@@ -178,8 +223,30 @@ class RandomizerSpec(_Spec):
     largest_index: int = field(default=2**64 - 1, kw_only=True)
     unbiased: bool = field(default=True, kw_only=True)
 
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        kinds = {promise.keyword for promise in get_args(Promise)}
+        require(
+            isinstance(self.keeps, tuple) and all(isinstance(kind, str) and kind in kinds for kind in self.keeps),
+            f"{self.name}: keeps must be a tuple of {', '.join(sorted(kinds))}",
+        )
+        require(
+            _is_integer(self.largest_index) and 0 <= self.largest_index < 2**64,
+            f"{self.name}: largest_index must be from 0 to 2^64 - 1",
+        )
+        require(isinstance(self.unbiased, bool), f"{self.name}: unbiased must be True or False")
+
 
 PIXEL_FILTER = Option("pixel-filter", "box", "mean over the pixel, or its centre alone", choices=("box", "center"))
+
+
+Purpose = Literal["pixel", "lens", "time", "direction"]
+PURPOSES: tuple[Purpose, ...] = get_args(Purpose)
+
+
+def _is_purpose(pair: object) -> bool:
+    """Whether it is a purpose and a number of dimensions."""
+    return isinstance(pair, tuple) and len(pair) == 2 and pair[0] in PURPOSES and _is_integer(pair[1]) and pair[1] >= 1
 
 
 @dataclass(frozen=True)
@@ -189,15 +256,13 @@ class SceneSpec(_Spec):
     Every scene with pixel dimensions also takes the option ``pixel-filter``, which it never sees itself.
     """
 
-    purposes: tuple[tuple[Literal["pixel", "lens", "time", "direction"], int], ...] = field(
-        default=(("pixel", 2),), kw_only=True
-    )
+    purposes: tuple[tuple[Purpose, int], ...] = field(default=(("pixel", 2),), kw_only=True)
 
     def __post_init__(self) -> None:
         super().__post_init__()
         require(
-            all(isinstance(number, int) and number >= 1 for _, number in self.purposes),
-            f"{self.name}: purposes must be pairs of a name and a number of dimensions",
+            isinstance(self.purposes, tuple) and all(map(_is_purpose, self.purposes)),
+            f"{self.name}: purposes must be pairs of {', '.join(PURPOSES)} and a number of dimensions",
         )
         if any(purpose == "pixel" for purpose, _ in self.purposes) and PIXEL_FILTER not in self.options:
             object.__setattr__(self, "options", (*self.options, PIXEL_FILTER))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import operator
 import re
+import unicodedata
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, SupportsFloat, SupportsIndex
 
@@ -22,6 +23,16 @@ def require(condition: bool, message: str) -> None:
     """Raise ValueError with the message unless the condition holds."""
     if not condition:
         raise ValueError(message)
+
+
+def is_line(text: object) -> bool:
+    """Whether it is text without line ends, tabs and other control characters."""
+    return isinstance(text, str) and (text.isprintable() or not any(unicodedata.category(c) == "Cc" for c in text))
+
+
+def is_number(value: object) -> bool:
+    """Whether it is an int or a float, and not NaN."""
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and value == value
 
 
 @dataclass(frozen=True)
@@ -54,7 +65,23 @@ class Option:
 
     def __post_init__(self) -> None:
         require(isinstance(self.name, str) and bool(NAME.match(self.name)), f"bad option name {self.name!r}")
-        require(isinstance(self.default, (int, float, str)), f"option {self.name}: default must be int, float, str")
+        who = f"option {self.name}"
+        require(type(self.default) in (int, float, str, bool), f"{who}: the default must be an int, float, str or bool")
+        require(is_line(self.summary), f"{who}: the summary must be text of one line")
+        for end in (self.minimum, self.maximum):
+            require(end is None or is_number(end), f"{who}: bounds must be numbers or None")
+        require(
+            isinstance(self.choices, tuple) and all(isinstance(choice, str) for choice in self.choices),
+            f"{who}: choices must be a tuple of text",
+        )
+        require(isinstance(self.required, bool), f"{who}: required must be True or False")
+        if isinstance(self.default, float):
+            require(math.isfinite(self.default), f"{who}: the default must be finite")
+        if not self.required:
+            try:
+                self.parse(self.default)
+            except UsageError as error:
+                raise ValueError(f"the default of {error}") from None
 
     def parse(self, value: object) -> OptionValue:
         """Turn text or a Python value into this option's type, or say what would be right.

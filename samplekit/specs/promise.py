@@ -7,6 +7,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from samplekit.specs.option import is_number, require
+
+
+def _is_integer(value: object, least: int) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool) and value >= least
+
+
+def _are_dimensions(dims: object) -> bool:
+    return isinstance(dims, tuple) and bool(dims) and all(_is_integer(d, 0) for d in dims) and len({*dims}) == len(dims)
+
 
 @dataclass(frozen=True)
 class Net:
@@ -21,6 +31,11 @@ class Net:
     sequence: bool = True
     keyword = "net"
 
+    def __post_init__(self) -> None:
+        require(_are_dimensions(self.dims), "Net: dims must be a tuple of different dimensions from 0 on")
+        require(_is_integer(self.base, 2), "Net: the base must be an integer from 2 on")
+        require(_is_integer(self.t, 0), "Net: t must be an integer from 0 on")
+
 
 @dataclass(frozen=True)
 class LatinStrata:
@@ -28,6 +43,12 @@ class LatinStrata:
 
     dims: tuple[int, ...] | None = None
     keyword = "latin"
+
+    def __post_init__(self) -> None:
+        require(
+            self.dims is None or _are_dimensions(self.dims),
+            "LatinStrata: dims must be a tuple of different dimensions from 0 on, or None",
+        )
 
 
 @dataclass(frozen=True)
@@ -40,6 +61,11 @@ class GridStrata:
     block: int | None = None
     keyword = "grid"
 
+    def __post_init__(self) -> None:
+        require(
+            self.block is None or _is_integer(self.block, 1), "GridStrata: block must be a positive integer or None"
+        )
+
 
 @dataclass(frozen=True)
 class OrthogonalArray:
@@ -48,6 +74,9 @@ class OrthogonalArray:
     strength: int = 2
     keyword = "orthogonal-array"
 
+    def __post_init__(self) -> None:
+        require(_is_integer(self.strength, 1), "OrthogonalArray: the strength must be a positive integer")
+
 
 @dataclass(frozen=True)
 class MinimumDistance:
@@ -55,6 +84,11 @@ class MinimumDistance:
 
     fraction: float
     keyword = "distance"
+
+    def __post_init__(self) -> None:
+        require(
+            is_number(self.fraction) and 0.0 < self.fraction <= 1.0, "MinimumDistance: the fraction must be in (0, 1]"
+        )
 
 
 Promise = Net | LatinStrata | GridStrata | OrthogonalArray | MinimumDistance

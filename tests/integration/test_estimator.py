@@ -172,6 +172,11 @@ def test_the_mean_of_a_constant_is_that_of_as_many_samples_to_the_bit(value):
         assert np.array_equal(computed.view(np.uint64), sampled.view(np.uint64))
 
 
+def test_the_mean_of_a_constant_takes_no_time_at_any_count():
+    made = Estimator(samplekit.scene("disk"), samplekit.sampler("random"), 2**48 - 1)
+    assert made.mean_of_constant(0.1) == pytest.approx(0.1, rel=1e-15)
+
+
 @pytest.mark.parametrize("count", COUNTS)
 @pytest.mark.parametrize("sampler", ["random", "sobol+owen", Drawn])
 def test_every_sample_that_is_not_finite_is_counted(count, sampler):

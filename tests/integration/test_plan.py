@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import samplekit
+from samplekit import memory
 from samplekit.errors import SamplekitError, UsageError
-from samplekit.integration import plan as plan_module
 from samplekit.integration.configured import ConfiguredScene
 from samplekit.integration.plan import MOST_SAMPLES, make_plan
 from samplekit.registry import Offer, Plugin
@@ -105,7 +105,11 @@ def test_what_is_left_out_is_explained():
 
 
 @pytest.mark.parametrize(
-    "size", [(0, 4), (4, 0), (-1, 4), (2.0, 4), (4, 2.5), ("4", 4), (True, 4), (None, 4), (2**31 + 1, 1), (math.inf, 4)]
+    "size",
+    [
+        *[(0, 4), (4, 0), (-1, 4), (2.0, 4), (4, 2.5), ("4", 4), (True, 4), (None, 4), (2**31 + 1, 1), (math.inf, 4)],
+        *[8, (8, 8, 8), (8,), "88", None],
+    ],
 )
 def test_sizes_that_cannot_be_are_refused(size):
     with pytest.raises(UsageError, match="expected width and height from 1 to"):
@@ -118,7 +122,15 @@ def test_sizes_may_be_integers_of_numpy():
     assert all(type(side) is int for side in made.size)
 
 
-@pytest.mark.parametrize("crop", [(8, 0, 1, 1), (0, 0, 9, 6), (0, 0, 0, 1), (-1, 0, 2, 2), (0, 5, 1, 2)])
+def test_counts_may_be_integers_of_numpy():
+    made = plan("gaussian", count=np.uint8(200), size=(64, 64))
+    assert made.sampled.size * made.count == 64 * 64 * 200
+
+
+@pytest.mark.parametrize(
+    "crop",
+    [(8, 0, 1, 1), (0, 0, 9, 6), (0, 0, 0, 1), (-1, 0, 2, 2), (0, 5, 1, 2), (0.5, 0, 4, 4), (0, 0, 4), (), 5, "0044"],
+)
 def test_crops_that_are_not_inside_are_refused(crop):
     with pytest.raises(UsageError, match="inside the image of 8x6 pixels"):
         plan(crop=crop)
@@ -159,7 +171,7 @@ def test_an_image_beyond_the_memory_is_refused_with_the_way_out(monkeypatch):
     assert part.sampled.size == part.pixels == 6
     assert np.array_equal(part.x_edges, np.arange(2**30, 2**30 + 4) / 2**31)
     # What is free is not even asked for a small one.
-    monkeypatch.setattr(plan_module, "_UNQUESTIONED_BYTES", 2**62)
+    monkeypatch.setattr(memory, "_UNQUESTIONED_BYTES", 2**62)
     assert plan(size=(4096, 4096)).pixels == 2**24
 
 

@@ -1,0 +1,66 @@
+"""The guard: calls into a plugin, whose faults end in one line that names it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, TypeVar
+
+from samplekit.errors import SamplekitError, UsageError
+from samplekit.quoting import quoted, reason
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from samplekit.registry import Plugin
+
+T = TypeVar("T")
+
+
+class Guard:
+    """Guards what one plugin offers.
+
+    Parameters
+    ----------
+    what
+        Kind and name, such as ``"sampler toy:k=3"``.
+    plugin
+        Where it comes from.
+    """
+
+    def __init__(self, what: str, plugin: Plugin) -> None:
+        self._who = f"{what} of plugin {plugin}"
+
+    def __call__(
+        self, fault: str, call: Callable[[], T], valid: Callable[[T], bool] = lambda _: True, expected: str = ""
+    ) -> T:
+        """What ``call`` gives.
+
+        Parameters
+        ----------
+        fault
+            What is wrong where it gives nothing, such as ``"cannot tell its notes"``.
+        valid, expected
+            Whether an answer is one, and what it should be.
+
+        Raises
+        ------
+        SamplekitError
+            It raised, or gave something else.
+        UsageError
+            The plugin's own: the request is at fault.
+        """
+        try:
+            answer = call()
+            right = valid(answer)
+        except UsageError:
+            raise
+        except SamplekitError as error:
+            raise self.blame(f"{fault}: {error}") from error
+        except (Exception, SystemExit) as error:
+            raise self.blame(f"{fault}: {reason(error)}") from error
+        if not right:
+            raise self.blame(f"{fault}: expected {expected}, got {quoted(answer)}")
+        return answer
+
+    def blame(self, what: str) -> SamplekitError:
+        """The error that names the plugin."""
+        return SamplekitError(f"{self._who} {what}")

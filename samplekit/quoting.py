@@ -1,0 +1,24 @@
+"""Strangers' values and errors in a message: on one line, short, and whatever their own text functions do."""
+
+from __future__ import annotations
+
+_LONGEST_VALUE = 60
+_LONGEST_REASON = 200
+
+
+def quoted(value: object) -> str:
+    """The value as Python writes it, its beginning where that is long."""
+    try:
+        text = " ".join(repr(value).split())
+    except Exception as error:
+        text = f"an object of type {type(value).__name__}, whose repr raises {type(error).__name__}"
+    return text if len(text) <= _LONGEST_VALUE else f"{text[:_LONGEST_VALUE]}..."
+
+
+def reason(error: BaseException) -> str:
+    """What an exception says: its type, and its text if it has one."""
+    try:
+        text = " ".join(str(error).split())
+    except Exception as second:
+        text = f"(its text raises {type(second).__name__})"
+    return f"{type(error).__name__}: {text}"[:_LONGEST_REASON] if text else type(error).__name__
