@@ -1,19 +1,12 @@
-"""The radical inverse: the digits of an index mirrored at the point (van der Corput 1935; Halton 1960).
-
-Digits stay integers until one correctly rounded division, so no value reaches 1 and none drifts.
-"""
+"""Prime bases of radical inverses, and how many digits of one fit into a number."""
 
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.numerics.kernel import helper, kernel
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+from samplekit.numerics.kernel import helper
 
 
 @cache
@@ -35,28 +28,3 @@ def largest_power(base: int, limit: int) -> int:
     while power <= limit // base:
         power *= base
     return power
-
-
-@kernel("void(float64[::1], int64, int64)")
-def radical_inverses(out: NDArray[np.float64], base: int, start: int) -> None:
-    """Write the radical inverses of start, start + 1, ... in ``base`` into ``out``; indices below 2^53 / base.
-
-    Counts like an odometer: adding one to the index changes the mirrored integer by its leading digits alone.
-    """
-    power = largest_power(base, 1 << 53)
-    mirrored = 0
-    weight = power
-    rest = start
-    while rest > 0:
-        weight //= base
-        mirrored += (rest % base) * weight
-        rest //= base
-    for i in range(out.size):
-        out[i] = np.float64(mirrored) / np.float64(power)
-        weight = power // base
-        carry = (base - 1) * weight
-        while mirrored >= carry and weight > 0:
-            mirrored -= carry
-            weight //= base
-            carry = (base - 1) * weight
-        mirrored += weight

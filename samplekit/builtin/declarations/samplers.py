@@ -114,7 +114,16 @@ SAMPLERS = (
         "halton",
         _SAMPLERS + "radical_inverses:Halton",
         "radical inverses of the index in the primes",
-        reference="Halton 1960",
+        reference="Halton 1960; Owen 2017 (digits); Owen 1995; Helmer, Christensen, Kensler 2021 (owen)",
+        options=(
+            Option(
+                "scramble",
+                "none",
+                "of digits, which ends the correlation of large bases: 256 points in 7907 and 7919 have 1.00 without,"
+                " a root mean square of 0.06 with digits and 0.07 with owen",
+                choices=("none", "digits", "owen"),
+            ),
+        ),
         dimensions=(1, 1024),
         progressive="every-count",
         randomized=False,
@@ -132,6 +141,19 @@ SAMPLERS = (
         unbiased=False,
         largest_index=2**40 - 1,
         promises=(LatinStrata(dims=(0,)), Net(dims=(0, 1), base=2, sequence=False)),
+    ),
+    SamplerSpec(
+        "faure",
+        _SAMPLERS + "faure:Faure",
+        "digital sequence in a prime base with t = 0 in as many dimensions as the base",
+        reference="Faure 1982",
+        options=(Option("base", 5, "a prime: as many dimensions at most, and good sets at its powers", 2, 1021),),
+        dimensions=(1, 5),
+        progressive="powers-of-5",
+        randomized=False,
+        unbiased=False,
+        largest_index=2**40 - 1,
+        promises=(Net(dims=(0, 1), base=5), Net(dims=(0, 1, 2, 3, 4), base=5)),
     ),
     SamplerSpec(
         "sobol",

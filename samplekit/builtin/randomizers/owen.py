@@ -1,10 +1,9 @@
 """Owen's nested uniform scrambling, in the base of each dimension.
 
-Owen 1995, "Randomly permuted (t,m,s)-nets and (t,s)-sequences". In base 2 the digits are flipped by a hash of the
-digits before them. In a prime base b > 2 each node of the tree of digits has a random affine permutation
-a d + c mod b, a != 0: any two digits go to a uniformly random pair of distinct digits, which is all that mean and
-variance depend on (Owen 2003, "Variance with alternative scramblings of digital nets"). In a composite base that is no
-permutation, and each node shuffles its digits.
+Owen 1995, "Randomly permuted (t,m,s)-nets and (t,s)-sequences". In base 2 the digits are flipped by a hash of those
+before them (:mod:`samplekit.sampling.owen`), in another base they are permuted node by node
+(:mod:`samplekit.sampling.nested_digits`). In a composite base, where multiplying by a random factor is no permutation,
+each node shuffles its digits.
 """
 
 from __future__ import annotations
@@ -14,9 +13,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.numerics.kernel import kernel, reverse_bits32
-from samplekit.sampling.digits import DIGITS_LIMIT, fraction, numerator, tail_digits
-from samplekit.sampling.hashing import GOLDEN, TWO_M32, below, mix64
+from samplekit.numerics.kernel import helper, kernel, reverse_bits32
+from samplekit.sampling.digits import DIGITS_LIMIT, numerator, tail_digits
+from samplekit.sampling.hashing import TWO_M32, hash_index, second_key
+from samplekit.sampling.nested_digits import factor_key, random_below, scrambled_child
 from samplekit.sampling.owen import owen_addend, owen_factor, owen_key, owen_tail, scramble_reversed, tail_value
 from samplekit.sampling.permutation import shuffle
 from samplekit.sampling.radical_inverse import largest_power
@@ -31,6 +31,70 @@ _U64 = np.uint64
 _U32 = np.uint32
 _TWO_P32 = 2.0**32
 _TWO_P53 = 2.0**53
+_CHUNK = 1024
+
+
+@helper
+def _scramble_binary(row: NDArray[np.float64], key: np.uint64) -> None:
+    addend = owen_addend(key)
+    factor = owen_factor(key)
+    tail = owen_tail(key)
+    for i in range(row.size):
+        head = _U32(row[i] * _TWO_P32)
+        digits_after = _U64((row[i] - np.float64(head) * TWO_M32) * _TWO_P53)
+        scrambled_head = scramble_reversed(reverse_bits32(head), addend, factor)
+        row[i] = np.float64(scrambled_head) * TWO_M32 + tail_value(digits_after ^ tail)
+
+
+@helper
+def _scramble_digits(
+    row: NDArray[np.float64], key: np.uint64, base: int, power: int, is_prime: bool, work: NDArray[np.float64]
+) -> None:
+    """Scramble at most ``work.shape[1]`` coordinates; ``work`` float64[4, K] is room."""
+    rest, scrambled, digits, nodes = work
+    second = second_key(key)
+    b = np.float64(base)
+    per_base = 1.0 / b
+    root = random_below(hash_index(key, second, _U64(0)), np.float64(power))
+    largest = 0.0
+    for i in range(row.size):
+        rest[i] = np.float64(numerator(row[i], power))
+        scrambled[i] = root
+        nodes[i] = 0.0
+        largest = max(largest, rest[i])
+    table = np.empty(base, np.int64)
+    reach = 1
+    weight = power
+    while largest > 0.0:
+        weight //= base
+        w = np.float64(weight)
+        per_weight = 1.0 / w
+        factors = factor_key(key, reach)
+        largest = 0.0
+        for i in range(row.size):
+            digits[i] = np.floor((rest[i] + 0.5) * per_weight)
+            rest[i] -= digits[i] * w
+            largest = max(largest, rest[i])
+        if is_prime:
+            for i in range(row.size):
+                node = _U64(np.int64(nodes[i]))
+                nodes[i] += digits[i] * np.float64(reach)
+                step = digits[i] * (1.0 + random_below(hash_index(factors, second, node), b - 1.0))
+                tail = hash_index(key, second, _U64(np.int64(nodes[i])))
+                child = scrambled_child(scrambled[i], step, tail, b, per_base, w, per_weight)
+                scrambled[i] = child if digits[i] > 0.0 else scrambled[i]
+        else:
+            for i in range(row.size):
+                if digits[i] > 0.0:
+                    shuffle(table, base - 1, hash_index(factors, second, _U64(np.int64(nodes[i]))))
+                    nodes[i] += digits[i] * np.float64(reach)
+                    step = 1.0 + np.float64(table[np.int64(digits[i]) - 1])
+                    tail = hash_index(key, second, _U64(np.int64(nodes[i])))
+                    scrambled[i] = scrambled_child(scrambled[i], step, tail, b, per_base, w, per_weight)
+        reach *= base
+    tail_b = tail_digits(key, power)
+    for i in range(row.size):
+        row[i] = (scrambled[i] + tail_b) / np.float64(power)
 
 
 @kernel("void(float64[:,:,::1], uint64[::1], int64[::1], boolean[::1])")
@@ -38,44 +102,17 @@ def _apply(
     points: NDArray[np.float64], keys: NDArray[np.uint64], bases: NDArray[np.int64], is_prime: NDArray[np.bool_]
 ) -> None:
     realizations, dims, count = points.shape
-    table = np.empty(bases.max(), np.int64)
+    work = np.empty((4, min(count, _CHUNK)))
     for d in range(dims):
-        base = bases[d]
-        power = largest_power(base, DIGITS_LIMIT)
+        power = largest_power(bases[d], DIGITS_LIMIT)
         for r in range(realizations):
             key = owen_key(keys[r], d)
-            row = points[r, d]
-            if base == 2:
-                addend = owen_addend(key)
-                factor = owen_factor(key)
-                tail = owen_tail(key)
-                for i in range(count):
-                    head = _U32(row[i] * _TWO_P32)
-                    digits_after = _U64((row[i] - np.float64(head) * TWO_M32) * _TWO_P53)
-                    scrambled_head = scramble_reversed(reverse_bits32(head), addend, factor)
-                    row[i] = np.float64(scrambled_head) * TWO_M32 + tail_value(digits_after ^ tail)
+            if bases[d] == 2:
+                _scramble_binary(points[r, d], key)
                 continue
-            tail_b = tail_digits(key, power)
-            for i in range(count):
-                rest = numerator(row[i], power)
-                weight = power
-                scrambled = 0
-                node = key
-                while weight > 1:
-                    weight //= base
-                    digit = rest // weight
-                    rest -= digit * weight
-                    random = mix64(node)
-                    if is_prime[d]:
-                        factor_b = 1 + np.int64(below(random, _U64(base - 1)))
-                        addend_b = np.int64(below(random << _U64(32), _U64(base)))
-                        permuted = (factor_b * digit + addend_b) % base
-                    else:
-                        shuffle(table, base, random)
-                        permuted = table[digit]
-                    scrambled = scrambled * base + permuted
-                    node = mix64(node + GOLDEN * _U64(digit + 1))
-                row[i] = fraction(scrambled, tail_b, power)
+            for begin in range(0, count, _CHUNK):
+                row = points[r, d, begin : min(begin + _CHUNK, count)]
+                _scramble_digits(row, key, bases[d], power, is_prime[d], work)
 
 
 class Owen(Randomizer):

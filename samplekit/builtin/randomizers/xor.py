@@ -9,9 +9,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.numerics.kernel import kernel
-from samplekit.sampling.digits import DIGITS_LIMIT, fraction, numerator, tail_digits
-from samplekit.sampling.hashing import TWO_M53, below, dimension_key, hash_index, mix64, second_key
+from samplekit.numerics.kernel import helper, kernel
+from samplekit.sampling.digits import DIGITS_LIMIT, numerator, tail_digits
+from samplekit.sampling.hashing import TWO_M53
+from samplekit.sampling.mirrored_digits import shift_key, shift_numerator
+from samplekit.sampling.nested_digits import moved_digit
 from samplekit.sampling.radical_inverse import largest_power
 from samplekit.sampling.randomizer import Randomizer
 
@@ -21,39 +23,57 @@ if TYPE_CHECKING:
     from samplekit.sampling.realizations import Realizations
 
 _U64 = np.uint64
-_XOR = _U64(0x5BE0CD19137E2179)
 _TWO_P53 = 2.0**53
+_CHUNK = 1024
+
+
+@helper
+def _shift_digits(row: NDArray[np.float64], key: np.uint64, base: int, power: int, work: NDArray[np.float64]) -> None:
+    """Shift at most ``work.shape[1]`` coordinates; ``work`` float64[2, K] is room."""
+    rest, shifted = work
+    b = np.float64(base)
+    per_base = 1.0 / b
+    largest = 0.0
+    for i in range(row.size):
+        rest[i] = np.float64(numerator(row[i], power))
+        shifted[i] = 0.0
+        largest = max(largest, rest[i])
+    shift = shift_numerator(key, power)
+    weight = power
+    while largest > 0.0:
+        weight //= base
+        w = np.float64(weight)
+        per_weight = 1.0 / w
+        added = np.float64(shift // weight)
+        shift %= weight
+        largest = 0.0
+        for i in range(row.size):
+            digit = np.floor((rest[i] + 0.5) * per_weight)
+            rest[i] -= digit * w
+            shifted[i] += moved_digit(digit, added, b, per_base) * w
+            largest = max(largest, rest[i])
+    tail = tail_digits(key, power)
+    for i in range(row.size):
+        row[i] = (shifted[i] + np.float64(shift) + tail) / np.float64(power)
 
 
 @kernel("void(float64[:,:,::1], uint64[::1], int64[::1])")
 def _apply(points: NDArray[np.float64], keys: NDArray[np.uint64], bases: NDArray[np.int64]) -> None:
     realizations, dims, count = points.shape
+    work = np.empty((2, min(count, _CHUNK)))
     for d in range(dims):
         base = bases[d]
         power = largest_power(base, DIGITS_LIMIT)
         for r in range(realizations):
-            key = mix64(dimension_key(keys[r], d) ^ _XOR)
-            row = points[r, d]
+            key = shift_key(keys[r], d)
             if base == 2:
                 word = key >> _U64(11)
+                row = points[r, d]
                 for i in range(count):
                     row[i] = np.float64(_U64(row[i] * _TWO_P53) ^ word) * TWO_M53
                 continue
-            second = second_key(key)
-            tail = tail_digits(key, power)
-            for i in range(count):
-                rest = numerator(row[i], power)
-                weight = power
-                shifted = 0
-                place = 0
-                while weight > 1:
-                    weight //= base
-                    digit = rest // weight
-                    rest -= digit * weight
-                    added = np.int64(below(hash_index(key, second, _U64(place)), _U64(base)))
-                    shifted = shifted * base + (digit + added) % base
-                    place += 1
-                row[i] = fraction(shifted, tail, power)
+            for begin in range(0, count, _CHUNK):
+                _shift_digits(points[r, d, begin : min(begin + _CHUNK, count)], key, base, power, work)
 
 
 class Xor(Randomizer):

@@ -9,7 +9,8 @@ import samplekit
 from samplekit import Realizations, UsageError
 from samplekit.builtin import samplekit_randomizers, samplekit_samplers
 
-CHOICES = [
+OPTIONS = ["halton:scramble=digits", "halton:scramble=owen", "halton:scramble=owen+owen", "faure:base=31+owen"]
+CHOICES = OPTIONS + [
     spec.name + suffix
     for spec in samplekit_samplers()
     if not any(option.required for option in spec.options)
@@ -123,6 +124,12 @@ LARGE = [
     ("halton+owen", 2**32),
     ("halton+xor", 2**32),
     ("halton+shift", 2**40),
+    ("halton:scramble=digits", 2**32),
+    ("halton:scramble=owen", 2**32),
+    ("faure", 2**40),
+    ("faure:base=1021", 2**40),
+    ("faure:base=7+owen", 2**32),
+    ("faure+xor", 2**32),
     ("hammersley+owen", 2**32),
     ("random+xor", 2**32),
     ("regular", 2**32),
@@ -155,7 +162,15 @@ def test_slices_at_large_indices(text, count):
 
 
 @pytest.mark.parametrize(
-    ("text", "dims"), [("halton", 1024), ("hammersley", 1025), ("sobol", 4096), ("random", 3000), ("halton+owen", 1024)]
+    ("text", "dims"),
+    [
+        ("halton", 1024),
+        ("hammersley", 1025),
+        ("sobol", 4096),
+        ("random", 3000),
+        ("halton+owen", 1024),
+        ("faure:base=1021", 1021),
+    ],
 )
 def test_as_many_dimensions_as_declared(text, dims):
     points = samplekit.points(text, 9, dims)

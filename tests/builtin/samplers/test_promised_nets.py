@@ -10,8 +10,13 @@ import samplekit
 from samplekit import Net
 
 TEXTS = [
-    f"{name}{suffix}" for name in ("halton", "hammersley", "sobol", "niederreiter") for suffix in ("", "+owen", "+xor")
-] + ["owen-sobol", "pmj02", "z-sobol", "z-sobol:orders=all"]
+    f"{name}{suffix}"
+    for name in ("halton", "hammersley", "sobol", "niederreiter", "faure")
+    for suffix in ("", "+owen", "+xor")
+] + [
+    *("halton:scramble=digits", "halton:scramble=owen", "faure:base=2+owen", "faure:base=3", "faure:base=7+xor"),
+    *("owen-sobol", "pmj02", "z-sobol", "z-sobol:orders=all"),
+]
 BLOCKS = (0, 1, 5)
 WORK = 1 << 20
 

@@ -3,7 +3,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from samplekit.sampling.radical_inverse import primes, radical_inverses
+from samplekit.sampling.mirrored_digits import PLAIN, fill_mirrored
+from samplekit.sampling.radical_inverse import primes
 
 BASES = sorted({*range(2, 1001), *primes(1024)})
 
@@ -18,9 +19,9 @@ def mirrored(index, base):
 
 
 def values(base, start, count):
-    out = np.empty(count)
-    radical_inverses(out, base, start)
-    return out.tolist()
+    out = np.empty((1, 1, count))
+    fill_mirrored(out, np.zeros(1, np.uint64), np.array([base]), start, PLAIN)
+    return out[0, 0].tolist()
 
 
 def exact(base, start, count):
