@@ -140,3 +140,15 @@ def piece_nodes(
                         count += 1
         ends[i] = count
     return ends.size
+
+
+@kernel("void(float64[::1], float64[::1], int64[::1], float64[::1])")
+def sum_cells(values: Array, shares: Array, ends: NDArray[np.int64], out: Array) -> None:
+    """Write the sum of values times shares over the nodes of each cell, one cell after the other."""
+    node = 0
+    for i in range(out.size):
+        total = 0.0
+        while node < ends[i]:
+            total += shares[node] * values[node]
+            node += 1
+        out[i] = total

@@ -7,14 +7,14 @@ circles and lines is integrated piece by piece between them: :mod:`samplekit.int
 from __future__ import annotations
 
 import math
-import os
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.integration.pieces import mark_crossed, piece_nodes
+from samplekit.integration.pieces import mark_crossed, piece_nodes, sum_cells
+from samplekit.integration.threads import default_threads
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -25,7 +25,6 @@ if TYPE_CHECKING:
     Function = Callable[[Array], Array]
     """From points float64[2, M] of the picture to values float64[M]."""
 
-MOST_EVALUATIONS = 2**26
 _CELLS_AT_ONCE = 2**14
 _BUFFER = 2**20
 _DEEPEST = 26
@@ -60,7 +59,7 @@ def pixel_means(
     orders: tuple[int, int] = (3, 5),
     borders: bool = False,
     tolerance: float = 1e-6,
-    evaluations: int = MOST_EVALUATIONS,
+    evaluations: float = math.inf,
 ) -> tuple[Array, Array]:
     """Integrate a function over each pixel.
 
@@ -85,7 +84,8 @@ def pixel_means(
     tolerance
         A cell of 1/4^k of its pixel is divided while its rules differ by more than this times 2^k.
     evaluations
-        Where this many are used up, what is reached is kept.
+        Where this many are used up, what is reached is kept. They are shared out among neighbouring pixels, so that a
+        part of an image may then differ from the whole one; without a limit it does not.
 
     Returns
     -------
@@ -96,13 +96,13 @@ def pixel_means(
     errors = np.zeros(width * height)
     wanted = np.flatnonzero(np.isnan(means))
     means[wanted] = 0.0
-    parts = np.maximum(1.0, np.ceil([np.diff(x_edges).max() / largest, np.diff(y_edges).max() / largest]))
+    parts = np.maximum(1.0, np.ceil(np.array([pixel_side(x_edges), pixel_side(y_edges)]) / largest))
     at_once = max(1, int(_CELLS_AT_ONCE // parts.prod()))
 
     def integrate(pixels: NDArray[np.int64]) -> None:
         column, row = pixels % width, pixels // width
         boxes = np.array([x_edges[column], x_edges[column + 1], y_edges[row], y_edges[row + 1]])
-        share = int(evaluations * pixels.size / wanted.size)
+        share = evaluations * pixels.size / wanted.size
         cells, owners = _divided(boxes, np.arange(pixels.size), int(parts[0]), int(parts[1]))
         found = _integrate(
             function,
@@ -119,9 +119,14 @@ def pixel_means(
         means[pixels], errors[pixels] = found
 
     batches = [wanted[first : first + at_once] for first in range(0, wanted.size, at_once)]
-    with ThreadPoolExecutor(os.cpu_count() if len(batches) > 1 else 1) as pool:
+    with ThreadPoolExecutor(max(1, min(default_threads(), len(batches)))) as pool:
         list(pool.map(integrate, batches))
     return means.reshape(height, width), errors.reshape(height, width)
+
+
+def pixel_side(edges: Array) -> float:
+    """The largest distance of neighbouring edges, in single precision: the same for every part of an image."""
+    return float(np.float32(np.diff(edges).max()))
 
 
 def _divided(cells: Array, owners: NDArray[np.int64], across: int, down: int) -> tuple[Array, NDArray[np.int64]]:
@@ -144,7 +149,7 @@ def _integrate(
     orders: tuple[int, int],
     borders: bool,
     tolerance: float,
-    evaluations: int,
+    evaluations: float,
 ) -> tuple[Array, Array]:
     """Integrate over cells, each ``fraction`` of a pixel; return sums and errors of the pixels, float64[P] each."""
     means, errors = np.zeros(pixels), np.zeros(pixels)
@@ -185,7 +190,12 @@ def _rule(
     nodes, weights = _gauss(order)
     values = _on_grid(function, smooth, nodes)
     used = values.size
-    means[~crossed] = np.einsum("i,j,ijc->c", weights, weights, values)
+    # Term by term: what a cell gets must not depend on its neighbours, and so on which part of an image is asked for.
+    total = np.zeros(smooth.shape[1])
+    for j, row in enumerate(values):
+        for i, column in enumerate(row):
+            total += (weights[j] * weights[i]) * column
+    means[~crossed] = total
     if borders:
         places = np.array([2.0**-20, 0.5, 1.0 - 2.0**-20])
         true = _on_grid(function, smooth, places)
@@ -201,9 +211,9 @@ def _rule(
         ends = np.zeros(rest.size, np.int64)
         filled = piece_nodes(cells[:, rest].copy(), curves.circles, curves.lines, nodes, weights, buffer, shares, ends)
         count = int(ends[filled - 1])
-        sums = np.cumsum(np.concatenate([[0.0], shares[:count] * function(buffer[:, :count].copy())]))
-        starts = np.concatenate([[0], ends[: filled - 1]])
-        means[rest[:filled]] = sums[ends[:filled]] - sums[starts]
+        sums = np.empty(filled)
+        sum_cells(np.ascontiguousarray(function(buffer[:, :count].copy()), np.float64), shares, ends, sums)
+        means[rest[:filled]] = sums
         used += count
         rest = rest[filled:]
     return means, misfit, used

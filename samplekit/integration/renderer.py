@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 import threading
 import time
 from concurrent.futures import Future, ThreadPoolExecutor, as_completed
@@ -12,9 +11,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.errors import UsageError
 from samplekit.integration.estimator import TILE_BYTES, Estimator, Seconds
 from samplekit.integration.pixels import locate
+from samplekit.integration.threads import asking_for, check_threads
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -57,13 +56,6 @@ class Rendering:
     reference_kind: str = ""
 
 
-def default_threads() -> int:
-    """The processors that this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
-
-
 def render_plan(
     plan: Plan,
     *,
@@ -98,9 +90,7 @@ def render_plan(
     SamplekitError
         A plugin failed.
     """
-    threads = default_threads() if threads is None else threads
-    if isinstance(threads, bool) or not isinstance(threads, int) or not 1 <= threads <= 1024:
-        raise UsageError(f"threads {threads}: expected an integer from 1 to 1024")
+    threads = check_threads(threads)
     began = time.perf_counter()
     estimator = Estimator(plan.scene, plan.sampler, plan.count, tile_bytes or TILE_BYTES)
     plan.sampler.prepare(plan.count, plan.scene.dims, preparing)
@@ -128,7 +118,8 @@ def render_plan(
     if plan.reference:
         from samplekit.metrics import metrics as image_metrics
 
-        exact = plan.scene.reference(plan.x_edges, plan.y_edges)
+        with asking_for(threads):
+            exact = plan.scene.reference(plan.x_edges, plan.y_edges)
         reference, reference_kind = exact.image, exact.kind
         reference_seconds = time.perf_counter() - reference_began
         error = shaped - reference

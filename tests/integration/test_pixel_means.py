@@ -1,11 +1,15 @@
 import math
+import os
 
 import numpy as np
 import pytest
 
+import samplekit
 from samplekit.builtin.scenes.disk import Disk
 from samplekit.builtin.scenes.gaussian import Gaussian
+from samplekit.integration import pixel_means as pixel_means_module
 from samplekit.integration.pixel_means import Curves, pixel_means
+from samplekit.integration.threads import default_threads
 
 
 def inside(radius, cx=0.4523, cy=0.5317):
@@ -91,3 +95,37 @@ def test_where_the_evaluations_end_the_rest_is_kept():
     means, errors = pixel_means(function, edges, edges, evaluations=10_000)
     assert sum(counted) <= 10_000
     assert abs(means[0, 0] - math.pi * 0.09) <= errors[0, 0]
+
+
+@pytest.mark.parametrize(
+    "text", ["depth-of-field", "depth-of-field:aperture=0.8,focus=inf", "motion-blur:aperture=0.1", "ambient-occlusion"]
+)
+# At 160 a circle of confusion is eight pixels, at 40 the largest cell is one: where an ulp would decide.
+@pytest.mark.parametrize(("size", "crop"), [(160, (37, 41, 30, 9)), (160, (101, 99, 1, 1)), (40, (17, 3, 7, 20))])
+def test_the_reference_of_a_crop_is_that_of_the_whole_bit_for_bit(text, size, crop, monkeypatch):
+    monkeypatch.setenv("SAMPLEKIT_CACHE", "")
+    scene = samplekit.scene(text)
+    x, y, width, height = crop
+    # The whole is what surrounds the crop: the rest of the picture would add nothing but time.
+    left, top = x - 3, y - 2
+    columns, rows = (np.arange(start, start + length + 1) / size for start, length in ((left, 40), (top, 30)))
+    whole = scene.exact(columns, rows)
+    part = scene.exact(columns[x - left :][: width + 1], rows[y - top :][: height + 1])
+    np.testing.assert_array_equal(part, whole[y - top :, x - left :][:height, :width])
+
+
+def test_a_reference_takes_no_more_threads_than_were_asked_for(monkeypatch):
+    taken = []
+
+    class Recording(pixel_means_module.ThreadPoolExecutor):
+        def __init__(self, workers):
+            taken.append(workers)
+            super().__init__(workers)
+
+    monkeypatch.setenv("SAMPLEKIT_CACHE", "")
+    monkeypatch.setattr(pixel_means_module, "ThreadPoolExecutor", Recording)
+    # Of 200 x 200 pixels, all of which vary, there are three batches.
+    for threads in (1, 2, 1024):
+        samplekit.render("ambient-occlusion", "random", 1, size=(200, 200), threads=threads)
+    assert taken == [1, 2, 3]
+    assert default_threads() <= (os.cpu_count() or 1)

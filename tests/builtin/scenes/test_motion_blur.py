@@ -91,6 +91,12 @@ class NeverMoved(Scene):
         return np.array(values)
 
 
+def test_the_reference_of_motion_is_far_below_the_smallest_error_of_a_study():
+    # Of all samplers rank1 had the smallest at 512 x 512 pixels: 1.75e-8.
+    result = samplekit.render("motion-blur", "rank1", 4096, size=(64, 64), seed=1)
+    assert result.metrics["reference_error"] ** 2 <= 0.01 * min(result.metrics["mse"], 1.75e-8)
+
+
 def test_a_still_scene_without_a_lens_is_one_that_never_had_time_or_lens():
     still = samplekit.scene("motion-blur:shutter=0")
     assert still.needs == {"pixel": 2}
