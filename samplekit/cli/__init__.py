@@ -12,6 +12,7 @@ import typer
 
 from samplekit import __version__
 from samplekit.cli.check import check
+from samplekit.cli.gallery import gallery
 from samplekit.cli.info import info
 from samplekit.cli.listing import list_
 from samplekit.cli.new_plugin import new_plugin
@@ -57,6 +58,7 @@ app.command("check")(check)
 app.command("list")(list_)
 app.command("info")(info)
 app.command("new-plugin")(new_plugin)
+app.command("gallery")(gallery)
 
 
 def main() -> None:
