@@ -53,6 +53,7 @@ def describe(rendering: Rendering) -> dict[str, Any]:
         "sampler_notes": plan.sampler.notes(plan.count, plan.scene.dims),
         "scene": plan.scene.text,
         "scene_plugin": str(plan.scene.plugin),
+        "scene_notes": plan.scene.notes(),
         "spp": plan.count,
         "dimensions": dict(plan.scene.needs),
         "size": list(plan.size),

@@ -77,6 +77,15 @@ class ConfiguredScene:
         """Number of dimensions that the scene needs with these options."""
         return sum(self.needs.values())
 
+    @property
+    def finite_variance(self) -> bool:
+        """Whether a standard error means anything; see :class:`Scene`."""
+        return bool(self._scene.finite_variance)
+
+    def notes(self) -> list[str]:
+        """What a user of this scene should know; see :meth:`Scene.notes`."""
+        return self._guarded("tell its notes", lambda: [str(note) for note in self._scene.notes()])
+
     def sums(self, tile: NDArray[np.float64], boxes: NDArray[np.float64], out: NDArray[np.float64]) -> None:
         """Sum the integrand over the samples of each pixel; see :meth:`Scene.sums`."""
         if self.at_centre:
@@ -111,6 +120,10 @@ class ConfiguredScene:
             return self._guarded(what, lambda: numerical_means(scene, x_edges, y_edges))
         image = self._image(what, lambda: scene.exact(x_edges, y_edges), x_edges, y_edges)
         return Reference(image, scene.reference_error)
+
+    def exact_at(self, x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The mean over all dimensions but the pixel's at the points x by y; see :meth:`Scene.exact_at`."""
+        return self._guarded("give its reference", lambda: self._scene.exact_at(x, y))
 
     def constant(self, x_edges: NDArray[np.float64], y_edges: NDArray[np.float64]) -> NDArray[np.float64]:
         """The value of each pixel that is provably constant, NaN elsewhere; see :meth:`Scene.constant`."""

@@ -98,6 +98,7 @@ class Plan:
                 f"left out: {left_out} of {self.pixels} pixels ({share:.2f} %), in which the scene is proven constant"
             )
         lines.append(f"samples: {self.sampled.size} pixels x {self.count} = {self.sampled.size * self.count}")
+        lines += [f"scene: {note}" for note in self.scene.notes()]
         lines += [f"sampler: {note}" for note in self.sampler.notes(self.count, self.scene.dims)]
         if not self.reference:
             lines.append("left out: the reference, the error and the metrics (--no-error)")

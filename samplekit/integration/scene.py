@@ -22,9 +22,16 @@ class Scene:
     ----------
     reference_error
         Bound of the error of ``exact`` in any pixel, beyond rounding; 0: exact.
+    finite_variance
+        Whether the square of the integrand has a finite integral; where not, a standard error means nothing.
     """
 
     reference_error: float = 0.0
+    finite_variance: bool = True
+
+    def notes(self) -> list[str]:
+        """What a user of this scene should know with these options; shown by ``--explain``, kept with the image."""
+        return []
 
     def dimensions(self) -> Mapping[str, int]:
         """Dimensions needed with these options, by purpose and in their order: ``{"pixel": 2}``."""

@@ -115,13 +115,17 @@ def _inverse(sigma: float, largest: float) -> tuple[float, float]:
 
 
 def _means(edges: NDArray[np.float64], centre: float, sigma: float) -> NDArray[np.float64]:
-    """Average the bell in one dimension between neighbouring edges: float64[m] for float64[m + 1].
+    """Average the bell in one dimension between neighbouring edges: float64[m] for float64[m + 1]."""
+    return bell_means(edges, centre, *_inverse(sigma, _LARGEST_SCALE))
+
+
+def bell_means(edges: NDArray[np.float64], centre: float, scale: float, scale_low: float = 0.0) -> NDArray[np.float64]:
+    """Average exp(-(scale (x - centre))^2) between neighbouring edges: float64[m] for float64[m + 1].
 
     Where it varies little by Gauss and Legendre's rule; elsewhere by error functions, scaled ones on a flank, where
-    those of both ends would cancel (NIST DLMF 7.2.1 to 7.2.3).
+    those of both ends would cancel (NIST DLMF 7.2.1 to 7.2.3). ``scale`` is a double-double.
     """
     edges = np.ascontiguousarray(edges)
-    scale, scale_low = _inverse(sigma, _LARGEST_SCALE)
     means = np.empty(edges.size - 1)
     _smooth_means(edges, centre, scale, scale_low, means)
     rough = np.flatnonzero(np.isnan(means))
