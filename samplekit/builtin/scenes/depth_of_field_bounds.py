@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.numerics.kernel import kernel
+from samplekit.numerics.kernel import helper, kernel
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -86,11 +86,19 @@ def _shown(
     return float(wall[3] if 0.5 * (column + row) == np.floor(0.5 * (column + row)) else wall[4])
 
 
+@helper
+def _about_line(low: float, high: float, reach: float, wall: Array) -> bool:
+    """Return whether one of the wall's lines is within ``reach`` of all that lies between ``low`` and ``high``."""
+    line = max(np.ceil((high - reach - wall[0]) / wall[1]), 0.0)
+    return bool(line <= wall[2] and wall[0] + line * wall[1] <= low + reach)
+
+
 @kernel("void(float64[::1], float64[::1], float64[:,::1], float64[::1], float64[::1], float64[::1], float64[:,::1])")
 def constant_pixels(x: Array, y: Array, front: Array, ring: Array, wall: Array, confusion: Array, out: Array) -> None:
     """Write what each pixel shows through all of the lens, NaN where that is not proven to be one value.
 
     Blocks of pixels come first: what is proven of a block holds in its pixels, and so does that nothing can be proven.
+    Pixels about the end of a line, where the wall's border is in view, are taken for blurred without more ado.
     """
     of_block, of_pixel = np.empty(front.shape[0] + 2, np.int64), np.empty(front.shape[0] + 2, np.int64)
     for top in range(0, out.shape[0], _BLOCK):
@@ -107,6 +115,9 @@ def constant_pixels(x: Array, y: Array, front: Array, ring: Array, wall: Array, 
                 side = _side(x0, x1, y0, y1, ring[0], ring[1], ring[2 + edge], abs(confusion[1]))
                 of_block[front.shape[0] + edge] = side
                 blurred |= side == 2 and of_block[: front.shape[0]].max() != 1
+            in_front, inner, outer = of_block[: front.shape[0]].max(), of_block[-2], of_block[-1]
+            if in_front == -1 and (inner == 1 or outer == -1):
+                blurred |= _about_line(x0, x1, abs(confusion[2]), wall) or _about_line(y0, y1, abs(confusion[2]), wall)
             value = math.nan
             if not blurred:
                 value = _shown(x0, x1, y0, y1, front, ring, wall, confusion, of_block)
