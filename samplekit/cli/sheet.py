@@ -65,6 +65,8 @@ def _sampler(spec: SamplerSpec) -> Rows:
     }
     if spec.randomized:
         rows["period"] = ["none" if spec.period is None else f"{spec.period} pixels"]
+    if spec.screen_block is not None:
+        rows["screen"] = [words.screen(spec.screen_block)]
     if spec.fresh_options:
         given = ",".join(f"{name}={value}" for name, value in spec.fresh_options.items())
         rows["fresh sets"] = [f"{given}: every realisation is made afresh, none is used twice"]

@@ -44,6 +44,14 @@ def progressive(spec: SamplerSpec) -> str:
     return f"at powers of {base}: {keeps}, and the first {base}^m are a good set"
 
 
+def screen(side: int) -> str:
+    """What pixels have to do with each other."""
+    return (
+        f"each aligned block of {side} x {side} pixels shares one sequence: its sets together keep every promise, and"
+        " errors cancel when seen together"
+    )
+
+
 def promise(promised: Promise) -> str:
     """One promise as a sentence."""
     if isinstance(promised, GridStrata):

@@ -40,7 +40,8 @@ def check_across_dimensions(subject: Subject) -> None:
     count = counts[0]
     wanted = _QUICK_REALIZATIONS if subject.quick else _REALIZATIONS
     realizations = subject.affordable(wanted, count, dims, least=16) if randomized else 1
-    values = subject.sets(count, dims, realizations)
+    asked = subject.independent(0, realizations)
+    values = subject.fill(asked, count, dims)
     correlations = pair_correlations(values)
     first, second = np.triu_indices(dims, 1)
     tests = 2 * first.size
@@ -51,7 +52,7 @@ def check_across_dimensions(subject: Subject) -> None:
     for pair in range(first.size):
         i, j = int(first[pair]), int(second[pair])
         row = int(np.abs(correlations[:, pair]).argmax())
-        example = subject.example(values, count, row=row, axes=(i, j))
+        example = subject.example(values, count, row=row, first=int(asked.x[row]) - row, axes=(i, j))
         if squares[pair] > limit:
             rms = math.sqrt(float((correlations[:, pair] ** 2).mean()))
             most = math.sqrt(limit / realizations / (count - 1))

@@ -31,14 +31,15 @@ _MOST_WORK = 1 << 25
 _SEEDS = (0, 1)
 
 
-def _promises(spec: SamplerSpec) -> list[Net]:
+def promised_nets(spec: SamplerSpec) -> list[Net]:
+    """The nets that it promises in dimensions that it has."""
     most = spec.dimensions[1]
     nets = [promise for promise in spec.promises if isinstance(promise, Net)]
     return [net for net in nets if net.dims and (most is None or max(net.dims) < most)]
 
 
 def _promises_nets(spec: SamplerSpec) -> str:
-    return "" if _promises(spec) else "it promises no net"
+    return "" if promised_nets(spec) else "it promises no net"
 
 
 def shapes(digits: int, dims: int) -> Iterator[tuple[int, ...]]:
@@ -142,7 +143,7 @@ def _nudged(values: NDArray[np.float64]) -> NDArray[np.float64]:
 def check_elementary_intervals(subject: Subject) -> None:
     """Every elementary interval of every promised net holds its points: first block, later ones of a sequence."""
     judged = 0
-    for net in _promises(subject.spec):
+    for net in promised_nets(subject.spec):
         dims = subject.dims(max(net.dims) + 1)
         for m in range(net.t, 64):
             count = net.base**m
@@ -160,7 +161,7 @@ def check_elementary_intervals(subject: Subject) -> None:
         raise NotApplicable("it makes no count that is a power of a promised base")
     if not subject.quick:
         for extreme in forced_extremes(subject):
-            for net in _promises(subject.spec):
+            for net in promised_nets(subject.spec):
                 held = max(net.dims) < extreme.values.shape[1] and _is_power(extreme.count, net.base)
                 if held and extreme.count >= net.base**net.t:
                     when = f" with random bits all {extreme.pattern}"

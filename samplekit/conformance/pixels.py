@@ -1,4 +1,8 @@
-"""Across pixels: no set comes back before the declared period, and neighbours know nothing of each other."""
+"""Across pixels: no set comes back before the declared period, and neighbours know nothing of each other.
+
+Of pixels that are declared to share a sequence with their neighbours (``screen_block``) more than that is asked: see
+``screen``. Pixels of different blocks know nothing of each other.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit.conformance.result import CheckFailed, CounterExample, check
+from samplekit.conformance.screen import judge_blocks
 from samplekit.conformance.statistics import normal_threshold
 from samplekit.sampling.realizations import Realizations
 
@@ -28,18 +33,23 @@ def _declared_randomized(spec: SamplerSpec) -> str:
 
 @check("across-pixels", 13, tolerance="repeats exact; correlation family-wise 1e-3", requires=_declared_randomized)
 def check_across_pixels(subject: Subject) -> None:
-    """No two of 2^17 pixels of a row, and of a column, have the same set; neighbours are not correlated."""
+    """No two of 2^17 pixels of a row, and of a column, have one set; neighbours are not correlated, or share a net."""
     dims = subject.dims(2)
     count = subject.counts(_COUNT, dims=dims)[0]
     pixels = subject.affordable(_QUICK_PIXELS if subject.quick else _PIXELS, count, dims, least=512)
     along, zero = np.arange(pixels, dtype=np.int64), np.zeros(pixels, np.int64)
     tests = 2 * len(_LAGS) * min(dims, 2) * 3
+    block = subject.spec.screen_block
     for axis, x, y in (("x", along, zero), ("y", zero, along)):
         values = subject.fill(Realizations.of_pixels(x, y, 0), count, dims)
         _judge_repeats(subject, values, axis, count)
+        if block is not None:
+            values = subject.fill(Realizations.of_pixels(x * block, y * block, 0), count, dims)
         for dimension in range(min(dims, 2)):
             # One point of each set: the points of a set depend on each other.
             _judge_neighbours(subject, values[:, dimension, -1], axis, dimension, count, tests)
+    if block is not None:
+        judge_blocks(subject, block)
 
 
 def _judge_repeats(subject: Subject, values: NDArray[np.float64], axis: str, count: int) -> None:
@@ -84,10 +94,13 @@ def _judge_neighbours(
         for name, (value, sigma) in found.items():
             limit = threshold * sigma / math.sqrt(number)
             if abs(value) > limit:
-                place = (lag, 0) if axis == "x" else (0, lag)
+                block = subject.spec.screen_block
+                apart = lag * (block or 1)
+                place = (apart, 0) if axis == "x" else (0, apart)
+                advice = "" if block else "; pixels that share a sequence on purpose are declared by screen_block"
                 raise CheckFailed(
-                    f"dimension {dimension} of pixels {lag} apart along {axis}: {name} {value:.3g}, at most {limit:.2g}"
-                    f" expected of {number} independent pixels",
+                    f"dimension {dimension} of pixels {apart} apart along {axis}: {name} {value:.3g}, at most"
+                    f" {limit:.2g} expected of {number} independent pixels{advice}",
                     CounterExample(subject.text, count, subject.dims(2), 0, place, indices=(count - 1,)),
                 )
 

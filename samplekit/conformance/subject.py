@@ -162,6 +162,11 @@ class Subject:
         """Whole sets float64[R, D, N] of the realisations first to first + R."""
         return self.fill(Realizations.of_trials(first, first + realizations, seed), count, dims)
 
+    def independent(self, first: int, stop: int, seed: int = 0) -> Realizations:
+        """Realisations that know nothing of each other: pixels of different blocks, where pixels share a sequence."""
+        x = np.arange(first, stop, dtype=np.int64) * (self.spec.screen_block or 1)
+        return Realizations.of_pixels(x, np.zeros_like(x), seed)
+
     def request(self, count: int, dims: int, realizations: Realizations) -> CounterExample:
         """A counter-example that names the request alone."""
         return CounterExample(self.text, count, dims, realizations.seed, int(realizations.x[0]))

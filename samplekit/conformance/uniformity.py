@@ -9,7 +9,6 @@ import numpy as np
 
 from samplekit.conformance.result import CheckFailed, CounterExample, check
 from samplekit.conformance.statistics import chi_square_threshold, student_threshold
-from samplekit.sampling.realizations import Realizations
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -39,7 +38,7 @@ def one_point_a_set(subject: Subject, realizations: int, count: int, dims: int) 
     chosen = np.empty((dims, realizations))
     for first in range(0, realizations, _CHUNK):
         rows = min(_CHUNK, realizations - first)
-        values = subject.fill(Realizations.of_trials(first, first + rows, 0), count, dims)
+        values = subject.fill(subject.independent(first, first + rows), count, dims)
         chosen[:, first : first + rows] = values[np.arange(rows), :, rng.integers(count, size=rows)].T
     return chosen
 
@@ -140,7 +139,7 @@ def check_unbiasedness(subject: Subject) -> None:
     estimates = np.empty((len(tests), realizations))
     for first in range(0, realizations, _CHUNK // 4):
         rows = slice(first, min(first + _CHUNK // 4, realizations))
-        values = subject.fill(Realizations.of_trials(rows.start, rows.stop, 0), count, dims)
+        values = subject.fill(subject.independent(rows.start, rows.stop), count, dims)
         for test, (_, function, _) in enumerate(tests):
             estimates[test, rows] = function(values).mean(axis=1)
     threshold = student_threshold(len(tests), realizations - 1)

@@ -10,7 +10,6 @@ import numpy as np
 from samplekit.conformance.result import CheckFailed, CounterExample, NotApplicable, check
 from samplekit.conformance.statistics import normal_threshold
 from samplekit.conformance.strata import promised_grids
-from samplekit.sampling.realizations import Realizations
 from samplekit.specs import GridStrata, LatinStrata, Net, OrthogonalArray
 
 if TYPE_CHECKING:
@@ -94,7 +93,7 @@ def _mean_squares(
     sums = np.zeros(len(functions))
     for first in range(0, realizations, _CHUNK):
         stop = min(first + _CHUNK, realizations)
-        values = subject.fill(Realizations.of_trials(first, stop, 0), count, dims)
+        values = subject.fill(subject.independent(first, stop), count, dims)
         for i, (_, function, integral, _) in enumerate(functions):
             sums[i] += ((function(values).mean(axis=1) - integral) ** 2).sum()
     return sums / realizations

@@ -125,3 +125,39 @@ class MirroredDimensions(Mutant):
         if out.shape[1] > 1:
             heads = per_key(realizations) < 0.5
             out[:, 1] = np.where(heads, out[:, 0], ALMOST_ONE - out[:, 0])
+
+
+class _SharesAScreen(Mutant):
+    """Z-Sobol, whose blocks of pixels share one sequence, with that broken."""
+
+    base, caught_by = "z-sobol", "across-pixels"
+
+
+class SharesNothing(_SharesAScreen):
+    """Says that blocks of pixels share one sequence, but gives every pixel a net of its own."""
+
+    def fill(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        x, y = ((each * 16) & 0xFFFFFFFF for each in (realizations.x, realizations.y))
+        apart = Realizations.of_pixels(x, y, realizations.seed)
+        self.inner.fill(out, apart, count, start)
+
+
+class HandsOutInDisorder(_SharesAScreen):
+    """Hands the parts of a block's sequence to its pixels in disorder: together they are a net, neighbours are not."""
+
+    def fill(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        place = (realizations.x & 15) + 16 * (realizations.y & 15)
+        moved = place * 91 % 256 ^ 0x5A
+        x, y = (realizations.x & ~15) | (moved & 15), (realizations.y & ~15) | (moved >> 4)
+        self.inner.fill(out, Realizations.of_pixels(x, y, realizations.seed), count, start)
+
+
+class OneSequenceForTheScreen(_SharesAScreen):
+    """Gives all blocks of the screen one sequence, with digits of one dimension flipped anew in each."""
+
+    def fill(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        first = Realizations.of_pixels(realizations.x & 15, realizations.y & 15, realizations.seed)
+        self.inner.fill(out, first, count, start)
+        block = Realizations.of_pixels(realizations.x >> 4, realizations.y >> 4, realizations.seed)
+        words = (out[:, 0] * 2.0**53).astype(np.uint64) ^ (block.random_words(1) >> np.uint64(11))
+        out[:, 0] = words * 2.0**-53

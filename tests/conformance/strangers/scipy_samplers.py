@@ -10,19 +10,14 @@ from samplekit import LatinStrata, MinimumDistance, Net, Sampler, SamplerSpec
 FRACTION = 0.5
 
 
-def seeded(rng):
-    """A generator that can spawn others, which scipy's engines do."""
-    return np.random.default_rng(rng.integers(2**63, size=2))
-
-
 class Sobol(Sampler):
     def draw(self, count, dims, rng):
-        return qmc.Sobol(dims, rng=seeded(rng)).random(count)
+        return qmc.Sobol(dims, rng=rng).random(count)
 
 
 class Halton(Sampler):
     def draw(self, count, dims, rng):
-        return qmc.Halton(dims, rng=seeded(rng)).random(count)
+        return qmc.Halton(dims, rng=rng).random(count)
 
 
 class PlainHalton(Sampler):
@@ -32,13 +27,13 @@ class PlainHalton(Sampler):
 
 class LatinHypercube(Sampler):
     def draw(self, count, dims, rng):
-        return qmc.LatinHypercube(dims, rng=seeded(rng)).random(count)
+        return qmc.LatinHypercube(dims, rng=rng).random(count)
 
 
 class PoissonDisk(Sampler):
     def draw(self, count, dims, rng):
         radius = FRACTION * math.sqrt(2 / (math.sqrt(3) * count))
-        return np.minimum(qmc.PoissonDisk(dims, radius=radius, rng=seeded(rng)).random(count), 1 - 2**-53)
+        return np.minimum(qmc.PoissonDisk(dims, radius=radius, rng=rng).random(count), 1 - 2**-53)
 
 
 def spec(name, target, **declared):
