@@ -58,8 +58,8 @@ FIGURES = [
     Figure(
         "net-with-a-wrong-bit",
         "A net with a wrong bit",
-        "By eye both look well distributed. The check finds the intervals that hold two points (red) or none (blue), in "
-        "the smallest set that shows it.",
+        "By eye both look well distributed. The check finds the intervals that hold two points (red) or none (blue), "
+        "in the smallest set that shows it.",
         "samplekit check sobol --quick",
         broken_net,
         chapter="Conformance",
