@@ -109,15 +109,12 @@ def _inside(d: float, d_low: float, sides: Array, numbers: Array, ends: Array) -
     return inside
 
 
-@kernel("float64(float64, float64, float64, float64, float64, float64[::1], float64[::1], float64[::1])")
-def _piece(
-    start: float, start_low: float, first: float, last: float, length: float, sides: Array, numbers: Array, ends: Array
-) -> float:
-    """Integrate the chords between the heights start + first and start + last, out of a slab of that length."""
-    size = last - first
-    to_lower = add(start, start_low, numbers[0], numbers[1])[0] + first
-    slab_end, slab_end_low = add(start, start_low, length, 0.0)
-    to_upper = add(numbers[0], numbers[1], -slab_end, -slab_end_low)[0] + (length - last)
+@kernel("float64(float64[::1], float64[::1], float64[::1], float64[::1], float64[::1])")
+def _piece(start: Array, stop: Array, sides: Array, numbers: Array, ends: Array) -> float:
+    """Integrate the chords between two heights, double-doubles between which the integrand is smooth."""
+    size = add(stop[0], stop[1], -start[0], -start[1])[0]
+    to_lower = add(start[0], start[1], numbers[0], numbers[1])[0]
+    to_upper = add(numbers[0], numbers[1], -stop[0], -stop[1])[0]
     # The end of the ellipse that is near, if one is: 0 none, -1 the lower, 1 the upper.
     end = 0.0
     if to_lower < _NEAR_THE_END * size:
@@ -125,7 +122,7 @@ def _piece(
     elif to_upper < _NEAR_THE_END * size:
         end = 1.0
     if end == 0.0:
-        low, high = first, last
+        low, high = 0.0, size
     else:
         nearest = max(to_lower if end < 0.0 else to_upper, 0.0)
         low, high = math.sqrt(nearest), math.sqrt(nearest + size)
@@ -135,7 +132,7 @@ def _piece(
         k = node // 2
         t = middle + (half if node % 2 else -half) * NODES[k]
         if end == 0.0:
-            d, d_low = add(start, start_low, t, 0.0)
+            d, d_low = add(start[0], start[1], t, 0.0)
             weight = 1.0
         else:
             square, square_low = two_product(t, t)
@@ -146,8 +143,18 @@ def _piece(
     return total * (high - low)
 
 
-@kernel("float64(float64[::1], float64[::1], float64[::1], float64[::1], float64[::1], float64[::1])")
-def _area(sides: Array, levels: Array, rows: Array, columns: Array, kinks: Array, ends: Array) -> float:
+@kernel("void(float64[:,::1], int64, float64, float64)")
+def _insert(heights: Array, count: int, d: float, d_low: float) -> None:
+    """Insert a double-double into the rising ``heights`` float64[> count, 2]."""
+    k = count
+    while k > 0 and (heights[k - 1, 0] > d or (heights[k - 1, 0] == d and heights[k - 1, 1] > d_low)):
+        heights[k] = heights[k - 1]
+        k -= 1
+    heights[k, 0], heights[k, 1] = d, d_low
+
+
+@kernel("float64(float64[::1], float64[::1], float64[::1], float64[::1], float64[:,::1], float64[::1])")
+def _area(sides: Array, levels: Array, rows: Array, columns: Array, heights: Array, ends: Array) -> float:
     """Integrate the chords within a pixel: ``sides`` as in ``_inside``, ``levels`` its top and bottom likewise."""
     start, start_low = levels[0], levels[1]
     if add(start, start_low, rows[0], rows[1])[0] < 0.0:
@@ -155,26 +162,29 @@ def _area(sides: Array, levels: Array, rows: Array, columns: Array, kinks: Array
     stop, stop_low = levels[2], levels[3]
     if add(rows[0], rows[1], -stop, -stop_low)[0] < 0.0:
         stop, stop_low = rows[0], rows[1]
-    length = add(stop, stop_low, -start, -start_low)[0]
-    if length <= 0.0:
+    if add(stop, stop_low, -start, -start_low)[0] <= 0.0:
         return 0.0
-    # Heights above the start at which the integrand is not smooth, or may have both ends near.
-    kinks[0], kinks[1] = -start, length
-    count = 2
+    heights[0, 0], heights[0, 1] = start, start_low
+    _insert(heights, 1, stop, stop_low)
+    # The middle, so that no piece has both ends of the ellipse near; and where the integrand is not smooth.
+    _insert(heights, 2, 0.0, 0.0)
+    count = 3
     for side in range(2):
         x, x_low = sides[2 * side], sides[2 * side + 1]
-        if abs(x) < columns[0]:
+        sign = math.copysign(1.0, x)
+        if add(columns[0], columns[1], -sign * x, -sign * x_low)[0] > 0.0:
             _chord(x, x_low, columns, ends)
-            for end in range(2):
-                kinks[count] = add(ends[2 * end], ends[2 * end + 1], -start, -start_low)[0]
-                count += 1
-    inner = np.sort(kinks[:count])
-    total, here = 0.0, 0.0
-    for k in range(count):
-        there = min(inner[k], length)
-        if there > here:
-            total += _piece(start, start_low, here, there, length, sides, rows, ends)
-            here = there
+            first, first_low, last, last_low = ends[0], ends[1], ends[2], ends[3]
+            _insert(heights, count, first, first_low)
+            _insert(heights, count + 1, last, last_low)
+            count += 2
+    total = 0.0
+    for k in range(count - 1):
+        below = add(heights[k, 0], heights[k, 1], -start, -start_low)[0] < 0.0
+        above = add(stop, stop_low, -heights[k + 1, 0], -heights[k + 1, 1])[0] < 0.0
+        empty = add(heights[k + 1, 0], heights[k + 1, 1], -heights[k, 0], -heights[k, 1])[0] <= 0.0
+        if not (below or above or empty):
+            total += _piece(heights[k], heights[k + 1], sides, rows, ends)
     return total
 
 
@@ -199,7 +209,7 @@ def _reach(top: float, bottom: float, rows: Array, columns: Array, ends: Array) 
 
 @kernel("void(float64[::1], float64[::1], float64, float64, float64[::1], float64[::1], float64[:,::1])")
 def _means(x: Array, y: Array, cx: float, cy: float, rows: Array, columns: Array, out: Array) -> None:
-    sides, levels, kinks, ends = np.empty(5), np.empty(4), np.empty(6), np.empty(5)
+    sides, levels, heights, ends = np.empty(5), np.empty(4), np.empty((7, 2)), np.empty(5)
     for j in range(out.shape[0]):
         levels[0], levels[1] = two_difference(y[j], cy)
         levels[2], levels[3] = two_difference(y[j + 1], cy)
@@ -215,5 +225,5 @@ def _means(x: Array, y: Array, cx: float, cy: float, rows: Array, columns: Array
             if sides[0] > most or sides[2] < least:
                 out[j, i] = 0.0
                 continue
-            area = _area(sides, levels, rows, columns, kinks, ends)
+            area = _area(sides, levels, rows, columns, heights, ends)
             out[j, i] = min(area / (sides[4] * height), 1.0)

@@ -42,10 +42,11 @@ def _mean_from_zero(x: Array, a: float) -> Array:
 
 
 def _mean_between(near: Array, far: Array, a: float) -> Array:
-    """Average over [near, far], 0 < near < far: near^-a ((1 + r)^b - 1) / (b r) with b = 1 - a, far = (1 + r) near."""
+    """Average over [near, far], 0 < near < far: far^b (1 - (near / far)^b) / (b (far - near)) with b = 1 - a."""
     b = 1.0 - a
     ratio = (far - near) / near
-    mean: Array = near**-a * (np.expm1(b * np.log1p(ratio)) / (b * ratio))
+    logarithm = np.where(np.isfinite(ratio), np.log1p(ratio), np.log(far) - np.log(near))
+    mean: Array = far**b * -np.expm1(-b * logarithm) / (b * (far - near))
     return mean
 
 

@@ -26,6 +26,7 @@ ALWAYS_0 = 746.0  # 1 / (1 + exp(v)) underflows to 0 from 745.14 on
 ALWAYS_1 = -38.0  # and rounds to 1 before -36.74
 _FULL = -40.0  # 1 but for 4e-18
 _TAIL = 45.0  # what the integral has beyond this, past where it begins or past 0, is below 2e-18 of it
+_FAR_BEFORE = -100.0
 _PANEL = 6.0  # the sigmoid's poles are at +-i pi: 24 nodes are right to 1e-18
 
 
@@ -54,21 +55,22 @@ def smooth_sums(tile: Array, boxes: Array, cosine: float, sine: float, offset: f
         out[pixel] = lane_sum(values, tile.shape[2])
 
 
-@kernel("float64(float64, float64, float64, float64, float64)")
-def _panel(start: float, end: float, before: float, after: float, shorter: float) -> float:
+@kernel("float64(float64, float64, float64, float64, float64, float64)")
+def _panel(start: float, end: float, first: float, last: float, shift: float, shorter: float) -> float:
     """Integrate density times sigmoid over [start, end], without the density's factor 1 / longer.
 
-    All in units of the width; the trapezoid reaches from ``before`` to ``after`` with flanks as long as ``shorter``.
+    In units of the width. The trapezoid reaches from ``first`` to ``last`` with flanks as long as ``shorter``; the
+    sigmoid is that of the place plus ``shift``.
     """
     middle, half = 0.5 * (start + end), 0.5 * (end - start)
     total = 0.0
     for node in range(NODES.size):
         pair = 0.0
         for sign in (-1.0, 1.0):
-            v = middle + sign * half * NODES[node]
-            ramp = min(v - before, after - v)
+            place = middle + sign * half * NODES[node]
+            ramp = min(place - first, last - place)
             height = 1.0 if ramp >= shorter else ramp / shorter
-            pair += max(height, 0.0) * _sigmoid(v)
+            pair += max(height, 0.0) * _sigmoid(place + shift)
         total += 0.5 * WEIGHTS[node] * pair
     return total * 2.0 * half
 
@@ -82,23 +84,28 @@ def _mean(below: float, above: float, p: float, q: float, width: float) -> float
         return 0.0
     if after <= _FULL:
         return 1.0
-    end = min(after, max(before, 0.0) + _TAIL)
-    first_kink, second_kink = before + shorter, after - shorter
-    here, integral = before, 0.0
+    # Places are counted from the box's first corner, so that flanks keep their digits; from the line where the corner
+    # is far before it, so that the sigmoid keeps its own: the box is then as large as that distance.
+    first, last, shift = 0.0, shorter + longer, before
+    if before < _FAR_BEFORE:
+        first, last, shift = before, after, 0.0
+    end = min(last, max(first, -shift) + _TAIL)
+    full, first_kink, second_kink = _FULL - shift, first + shorter, last - shorter
+    here, integral = first, 0.0
     while here < end:
         there = end
-        if here < _FULL < there:
-            there = _FULL
+        if here < full < there:
+            there = full
         if here < first_kink < there:
             there = first_kink
         if here < second_kink < there:
             there = second_kink
         # Where the sigmoid is 1 the density alone is left, and one panel is exact.
-        panels = 1.0 if there <= _FULL else np.ceil((there - here) / _PANEL)
+        panels = 1.0 if there <= full else np.ceil((there - here) / _PANEL)
         step = (there - here) / panels
         for panel in range(int(panels)):
-            last = there if panel == panels - 1.0 else here + (panel + 1.0) * step
-            integral += _panel(here + panel * step, last, before, after, shorter)
+            until = there if panel == panels - 1.0 else here + (panel + 1.0) * step
+            integral += _panel(here + panel * step, until, first, last, shift, shorter)
         here = there
     return min(integral / longer, 1.0)
 
