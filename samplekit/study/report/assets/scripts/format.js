@@ -1,6 +1,19 @@
 // Numbers as people read them.
 
-const SUPERSCRIPTS = { "-": "⁻", ".": "·", 0: "⁰", 1: "¹", 2: "²", 3: "³", 4: "⁴", 5: "⁵", 6: "⁶", 7: "⁷", 8: "⁸", 9: "⁹" };
+const SUPERSCRIPTS = {
+  "-": "⁻",
+  ".": "·",
+  0: "⁰",
+  1: "¹",
+  2: "²",
+  3: "³",
+  4: "⁴",
+  5: "⁵",
+  6: "⁶",
+  7: "⁷",
+  8: "⁸",
+  9: "⁹",
+};
 
 function superscript(text) {
   return [...String(text)].map((character) => SUPERSCRIPTS[character] ?? character).join("");
@@ -15,13 +28,10 @@ function formatNumber(value, digits = 3) {
   if (value === 0) return "0";
   const size = Math.abs(value);
   const sign = value < 0 ? "−" : "";
-  if (size >= 1e-3 && size < 1e5) return sign + trimmed(size.toPrecision(digits));
-  const [mantissa, exponent] = size.toExponential(digits - 1).split("e");
-  return `${sign}${mantissa}·${power(Number(exponent))}`;
-}
-
-function trimmed(text) {
-  return text.includes("e") ? String(Number(text)) : text;
+  const rounded = size.toExponential(digits - 1);
+  const [mantissa, exponent] = rounded.split("e");
+  if (exponent < -3 || exponent >= 5) return `${sign}${mantissa}·${power(Number(exponent))}`;
+  return sign + Number(rounded).toFixed(Math.max(0, digits - 1 - exponent));
 }
 
 const TIME_UNITS = [
@@ -45,4 +55,8 @@ function formatCount(count) {
 function formatInterval(low, high) {
   if (low === null || high === null) return "no interval";
   return `${formatNumber(low)} … ${formatNumber(high)}`;
+}
+
+function formatSigned(value, digits = 3) {
+  return (value > 0 ? "+" : "") + formatNumber(value, digits);
 }

@@ -11,7 +11,11 @@ function reaching(points, target) {
     if (!before || point.error === 0) return { samples: point.count, seconds: point.seconds, first: !before };
     const share = Math.log(before.error / target) / Math.log(before.error / point.error);
     const between = (a, b) => Math.exp(Math.log(a) + share * Math.log(b / a));
-    return { samples: between(before.count, point.count), seconds: between(before.seconds, point.seconds), first: false };
+    return {
+      samples: between(before.count, point.count),
+      seconds: between(before.seconds, point.seconds),
+      first: false,
+    };
   }
   return null;
 }

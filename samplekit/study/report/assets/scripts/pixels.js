@@ -26,14 +26,14 @@ function referencePixels(id) {
   });
 }
 
-// Whole multiples of a step: 0, -1, 1, -2, ... as 16 bits in two planes; the largest code is a pixel without a value.
+// Whole multiples of a step: 0, -1, 1, -2, ... as 24 bits in three planes; the largest code is a pixel without a value.
 function errorPixels(id, step) {
   return decoded(id, (bytes) => {
-    const count = bytes.length / 2;
+    const count = bytes.length / 3;
     const errors = new Float32Array(count);
     for (let i = 0; i < count; i += 1) {
-      const code = bytes[i] | (bytes[count + i] << 8);
-      errors[i] = code === 0xffff ? NaN : step * (code & 1 ? -(code + 1) / 2 : code / 2);
+      const code = bytes[i] | (bytes[count + i] << 8) | (bytes[2 * count + i] << 16);
+      errors[i] = code === 0xffffff ? NaN : step * (code & 1 ? -(code + 1) / 2 : code / 2);
     }
     return errors;
   });
@@ -65,7 +65,9 @@ function greyColour(exposure) {
   };
 }
 
-const ERROR_COLOURS = DATA.error_colours.match(/.{6}/g).map((hex) => [0, 2, 4].map((at) => parseInt(hex.slice(at, at + 2), 16)));
+const ERROR_COLOURS = DATA.error_colours
+  .match(/.{6}/g)
+  .map((hex) => [0, 2, 4].map((at) => parseInt(hex.slice(at, at + 2), 16)));
 
 // Blue below zero, white at zero, red above; beyond the scale the colour of the end.
 function errorColour(scale) {
