@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 
 LARGEST_ASPECT = 2
 """A grid's longest side is at most this many times its shortest: beyond it strata are strips."""
+_NEAR = 2000
+"""Counts on either side that are tried one by one."""
 
 
 @lru_cache(4096)
@@ -134,12 +136,42 @@ def _candidates(rule: str, count: int, dims: int, direction: int) -> list[int]:
     if rule.startswith("exactly-"):
         return [_number_in(rule)]
     test = _rule(rule, dims)
-    n = count + direction
-    while n >= 1:
-        if test(n):
-            return [n]
-        n += direction
-    return []
+    near = range(count + direction, max(count + direction * _NEAR, 0), direction)
+    found = next((n for n in near if test(n)), None)
+    if found is not None or (count <= _NEAR and direction < 0):
+        return [] if found is None else [found]
+    return [_nearest_grid(count, dims if rule == "products" else _number_in(rule), direction)]
+
+
+def _nearest_grid(count: int, dims: int, direction: int) -> int:
+    """The nearest count below or above that has a grid, by branch and bound over the sides, longest first.
+
+    For grids of many dimensions, which lie so far apart that stepping by one would take for ever, and are few.
+    """
+    if dims > count.bit_length():
+        # Some side is 1 below 2^dims cells, so none is longer than 2.
+        return 1 << (count.bit_length() - 1 - (direction < 0 and count.bit_count() == 1) + (direction > 0))
+    best = 0 if direction < 0 else (2 ** (count.bit_length() + dims)) ** 2
+    limit = count + direction
+
+    def extend(cells: int, left: int, longest: int, shortest: int) -> None:
+        nonlocal best
+        if left == 1:
+            side = min(longest, limit // cells) if direction < 0 else max(shortest, -(-limit // cells))
+            if shortest <= side <= longest:
+                best = max(best, cells * side) if direction < 0 else min(best, cells * side)
+            return
+        for side in range(longest, shortest - 1, -1):
+            most, least = cells * side**left, cells * side * shortest ** (left - 1)
+            if (most <= best) if direction < 0 else (most < limit):
+                return
+            if (least <= limit) if direction < 0 else (least < best):
+                extend(cells * side, left - 1, side, shortest)
+
+    root = int(count ** (1 / dims))
+    for shortest in range(root + 2, max(root // LARGEST_ASPECT - 1, 0), -1):
+        extend(1, dims, LARGEST_ASPECT * shortest, shortest)
+    return best
 
 
 def describe(rule: str) -> str:

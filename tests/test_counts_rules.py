@@ -1,3 +1,6 @@
+import itertools
+import math
+
 import pytest
 
 from samplekit.counts import allows, check_count, describe, fibonacci_numbers, nearest_above, nearest_below
@@ -58,3 +61,19 @@ def test_declarations_take_every_rule_and_it_has_words(rule):
 def test_declarations_refuse_other_rules(rule):
     with pytest.raises(ValueError, match="unknown counts"):
         SamplerSpec("x", "a:B", "", counts=rule)
+
+
+@pytest.mark.parametrize(
+    ("count", "dims"), [(2**31 - 1, 30), (2**31 - 1, 31), (2**31 - 1, 5000), (2**20 - 1, 10), (10**9 + 7, 15)]
+)
+def test_the_nearest_grids_of_many_dimensions_are_found_at_once(count, dims):
+    """Against all products of sides from s to 2 s, for every s that can matter; sides of 1 add nothing."""
+    most = min(dims, 32)
+    root = int(count ** (1 / most))
+    products = {
+        math.prod(sides)
+        for s in range(max(root // 2, 1), root + 2)
+        for sides in itertools.combinations_with_replacement(range(s, 2 * s + 1), most)
+    }
+    assert nearest_below("products", count, dims) == max(n for n in products if n < count)
+    assert nearest_above("products", count, dims) == min(n for n in products if n > count)

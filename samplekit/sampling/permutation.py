@@ -87,3 +87,56 @@ def permute(index: int, count: int, bits: int, key: np.uint64) -> int:
     while x >= count:
         x = scatter(x, bits, key)
     return np.int64(x)  # type: ignore[return-value]
+
+
+@helper
+def permute_range(place: NDArray[np.int64], start: int, count: int, bits: int, key: np.uint64) -> None:
+    """The places of start, start + 1, ... as :func:`permute` has them, many at a time."""
+    for i in range(place.size):
+        place[i] = scatter(_U32(start + i), bits, key)
+    if count == 1 << bits:
+        return
+    waiting = np.empty(place.size, np.int64)
+    walking = np.empty(place.size, np.uint32)
+    left = 0
+    for i in range(place.size):
+        waiting[left] = i
+        left += place[i] >= count
+    while left > 0:
+        for k in range(left):
+            walking[k] = _U32(place[waiting[k]])
+        for k in range(left):
+            walking[k] = scatter(walking[k], bits, key)
+        still = 0
+        for k in range(left):
+            i = waiting[k]
+            place[i] = walking[k]
+            waiting[still] = i
+            still += place[i] >= count
+        left = still
+
+
+@helper
+def permute_in_lines(
+    place: NDArray[np.int64], lines: NDArray[np.int64], count: int, bits: int, keys: NDArray[np.uint64]
+) -> None:
+    """Permute each of ``place`` among ``count`` elements, in place, with the key of its line."""
+    waiting = np.empty(place.size, np.int64)
+    walking = np.empty(place.size, np.uint32)
+    left = 0
+    for i in range(place.size):
+        place[i] = scatter(_U32(place[i]), bits, keys[lines[i]])
+    for i in range(place.size):
+        waiting[left] = i
+        left += place[i] >= count
+    while left > 0:
+        for k in range(left):
+            i = waiting[k]
+            walking[k] = scatter(_U32(place[i]), bits, keys[lines[i]])
+        still = 0
+        for k in range(left):
+            i = waiting[k]
+            place[i] = walking[k]
+            waiting[still] = i
+            still += place[i] >= count
+        left = still

@@ -30,3 +30,14 @@ def place_in_cell(cell: float, random: np.uint64, shift: np.uint64, step: float,
     ``shift`` is 64 - offset_bits(n), ``step`` is 2^-offset_bits(n), ``width`` is 1/n.
     """
     return (cell + (np.float64(random >> shift) + 0.5) * step) * width
+
+
+@helper
+def cell_along_axis(point: float, per_row: float, side: float, width: float) -> float:
+    """The cell of an axis with ``side`` cells that point number ``point`` of a grid is in.
+
+    ``per_row`` is 1 over the number of cells of the axes before, ``width`` is 1 / side. Integer division by way of
+    float64, which vectorises: the half keeps clear of the rounding.
+    """
+    row = float(np.floor((point + 0.5) * per_row))
+    return row - side * float(np.floor((row + 0.5) * width))

@@ -8,6 +8,7 @@ import pytest
 from scipy import stats
 
 import samplekit
+from samplekit.sampling.permutation import permutation_bits, permute, permute_in_lines, permute_range
 
 LATIN = samplekit.sampler("latin-hypercube")
 
@@ -130,3 +131,18 @@ def cycles(places):
                 seen[place] = 1
                 place = places[place]
     return found
+
+
+@pytest.mark.parametrize("count", [3, 1025, 2048, 5000])
+def test_many_at_a_time_go_where_each_goes_alone(count):
+    bits, key = permutation_bits(count), np.uint64(2**63 + 12345)
+    start = min(7, count - 3)
+    place = np.empty(min(700, count - start), np.int64)
+    permute_range(place, start, count, bits, key)
+    assert place.tolist() == [permute(start + i, count, bits, key) for i in range(place.size)]
+    lines = np.arange(place.size) % 3
+    keys = np.array([5, 2**64 - 1, 77], np.uint64)
+    within = (np.arange(place.size) + start) % count
+    expected = [permute(i, count, bits, keys[line]) for i, line in zip(within, lines, strict=True)]
+    permute_in_lines(within, lines, count, bits, keys)
+    assert within.tolist() == expected

@@ -4,27 +4,27 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from samplekit.numerics.kernel import kernel
+from samplekit.numerics.kernel import helper
 from samplekit.sampling.hashing import unit
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from samplekit import Realizations
+CHUNK = 1024
+"""Points whose fractions are made at a time, for all realisations: so few that they stay in the fastest cache."""
 
 
-@kernel("void(float64[:,:,::1], uint64[:,::1], uint64[:,::1])")
-def _add_shifts(out: NDArray[np.float64], fractions: NDArray[np.uint64], shifts: NDArray[np.uint64]) -> None:
-    realizations, dims, points = out.shape
-    for r in range(realizations):
-        for d in range(dims):
-            row = out[r, d]
-            shift = shifts[r, d]
-            for i in range(points):
-                row[i] = unit(fractions[d, i] + shift)
+@helper
+def write_shifted(
+    out: NDArray[np.float64], dimension: int, first: int, fractions: NDArray[np.uint64], shifts: NDArray[np.uint64]
+) -> None:
+    """Write points first, first + 1, ... of a dimension: ``fractions`` plus the shift of each realisation.
 
-
-def write_shifted(out: NDArray[np.float64], fractions: NDArray[np.uint64], realizations: Realizations) -> None:
-    """Write ``fractions`` uint64[D, n] plus a random shift for each realisation and dimension: float64[R, D, n]."""
-    _add_shifts(out, fractions, realizations.random_words(fractions.shape[0]))
+    ``out`` float64[R, D, n], ``fractions`` uint64[k], ``shifts`` uint64[R, D].
+    """
+    for r in range(out.shape[0]):
+        row = out[r, dimension, first : first + fractions.size]
+        shift = shifts[r, dimension]
+        for i in range(fractions.size):
+            row[i] = unit(fractions[i] + shift)

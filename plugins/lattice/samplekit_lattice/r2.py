@@ -14,13 +14,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit import Sampler
-from samplekit_lattice.fixed_point import write_shifted
+from samplekit.numerics.kernel import kernel
+from samplekit_lattice.fixed_point import CHUNK, write_shifted
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from samplekit import Realizations
 
+_U64 = np.uint64
 _DIGITS = 60
 """Decimal digits of phi: 20 make a 64-bit fraction, and D powers lose log10(D) of the rest."""
 
@@ -45,11 +47,22 @@ def golden_steps(dims: int) -> NDArray[np.uint64]:
     return found
 
 
+@kernel("void(float64[:,:,::1], uint64[::1], uint64[:,::1], int64)")
+def _fill(out: NDArray[np.float64], steps: NDArray[np.uint64], shifts: NDArray[np.uint64], start: int) -> None:
+    _, dims, points = out.shape
+    chunk = np.empty(CHUNK, np.uint64)
+    for first in range(0, points, CHUNK):
+        fractions = chunk[: min(CHUNK, points - first)]
+        for d in range(dims):
+            for i in range(fractions.size):
+                fractions[i] = _U64(start + first + i) * steps[d]
+            write_shifted(out, d, first, fractions, shifts)
+
+
 class R2(Sampler):
     """Point i is i times the step plus the realisation's shift, modulo 1."""
 
     def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`samplekit.Sampler.fill`."""
-        _, dims, points = out.shape
-        index = np.arange(start, start + points, dtype=np.uint64)
-        write_shifted(out, golden_steps(dims)[:, None] * index, realizations)
+        dims = out.shape[1]
+        _fill(out, golden_steps(dims).copy(), realizations.random_words(dims), start)

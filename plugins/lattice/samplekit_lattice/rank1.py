@@ -16,7 +16,7 @@ import numpy as np
 
 from samplekit import Sampler
 from samplekit.numerics.kernel import kernel, reverse_bits32
-from samplekit_lattice.fixed_point import write_shifted
+from samplekit_lattice.fixed_point import CHUNK, write_shifted
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -38,15 +38,17 @@ def generating_vector(name: str) -> NDArray[np.uint64]:
     return vector
 
 
-@kernel("void(uint64[:,::1], uint64[::1], int64)")
-def _write_multiples(out: NDArray[np.uint64], vector: NDArray[np.uint64], start: int) -> None:
-    """Write phi_2(i) z as 64-bit fractions: the product wraps modulo 1."""
-    dims, points = out.shape
-    for d in range(dims):
-        row = out[d]
-        z = vector[d]
-        for i in range(points):
-            row[i] = (_U64(reverse_bits32(_U32(start + i))) << _U64(32)) * z
+@kernel("void(float64[:,:,::1], uint64[::1], uint64[:,::1], int64)")
+def _fill(out: NDArray[np.float64], vector: NDArray[np.uint64], shifts: NDArray[np.uint64], start: int) -> None:
+    _, dims, points = out.shape
+    chunk = np.empty(CHUNK, np.uint64)
+    for first in range(0, points, CHUNK):
+        fractions = chunk[: min(CHUNK, points - first)]
+        for d in range(dims):
+            for i in range(fractions.size):
+                # The product of z and phi_2(i) as a 64-bit fraction wraps modulo 1.
+                fractions[i] = (_U64(reverse_bits32(_U32(start + first + i))) << _U64(32)) * vector[d]
+            write_shifted(out, d, first, fractions, shifts)
 
 
 class Rank1(Sampler):
@@ -62,6 +64,5 @@ class Rank1(Sampler):
 
     def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`samplekit.Sampler.fill`."""
-        fractions = np.empty(out.shape[1:], np.uint64)
-        _write_multiples(fractions, self.vector[: out.shape[1]].copy(), start)
-        write_shifted(out, fractions, realizations)
+        dims = out.shape[1]
+        _fill(out, self.vector[:dims].copy(), realizations.random_words(dims), start)

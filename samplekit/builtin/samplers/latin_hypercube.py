@@ -11,7 +11,7 @@ import numpy as np
 
 from samplekit.numerics.kernel import kernel
 from samplekit.sampling.hashing import dimension_key, hash_index, mix64, second_key
-from samplekit.sampling.permutation import SHUFFLED, permutation_bits, permute, scatter, shuffle
+from samplekit.sampling.permutation import SHUFFLED, permutation_bits, permute_range, shuffle
 from samplekit.sampling.sampler import Sampler
 from samplekit.sampling.stratification import offset_bits, place_in_cell
 
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from samplekit.sampling.realizations import Realizations
 
 _U64 = np.uint64
-_U32 = np.uint32
 _SHUFFLE = _U64(0x6A09E667F3BCC908)
 
 
@@ -44,11 +43,7 @@ def _fill(out: NDArray[np.float64], keys: NDArray[np.uint64], count: int, start:
                 shuffle(place, count, order)
             else:
                 first = 0
-                for i in range(points):
-                    place[i] = scatter(_U32(start + i), index_bits, order)
-                for i in range(points):
-                    if place[i] >= count:
-                        place[i] = permute(place[i], count, index_bits, order)
+                permute_range(place[:points], start, count, index_bits, order)
             row = out[r, d]
             for i in range(points):
                 cell = np.float64(place[first + i])

@@ -17,7 +17,7 @@ from samplekit.counts import grid_sides
 from samplekit.errors import UsageError
 from samplekit.numerics.kernel import kernel
 from samplekit.sampling.hashing import dimension_key, hash_index, mix64, second_key
-from samplekit.sampling.permutation import SHUFFLED, permutation_bits, permute, shuffle
+from samplekit.sampling.permutation import SHUFFLED, permutation_bits, permute_in_lines, permute_range, shuffle
 from samplekit.sampling.sampler import Sampler
 from samplekit.sampling.stratification import offset_bits, place_in_cell
 
@@ -29,6 +29,10 @@ if TYPE_CHECKING:
 _U64 = np.uint64
 _ORDER = _U64(0xBB67AE8584CAA73B)
 _LINES = _U64(0x3C6EF372FE94F82B)
+_BLOCK = 1024
+"""Points that are made at a time, so that what is known of them stays in the cache."""
+_TABULATED = 1 << 16
+"""Largest number of places within lines that are a table: of one line, where all share it, or of all together."""
 
 
 @kernel("void(float64[:,:,::1], uint64[::1], int64, int64, int64, int64, boolean)")
@@ -41,54 +45,68 @@ def _fill(
     start: int,
     correlated: bool,
 ) -> None:
-    realizations, dims, points = out.shape
+    realizations, dims, whole = out.shape
+    points = min(whole, _BLOCK)
     shuffled = count <= SHUFFLED
-    order = np.empty(points, np.int64)
-    table = np.empty(SHUFFLED, np.int64)
-    within = np.empty(SHUFFLED, np.int64)
+    places = np.empty(SHUFFLED, np.int64)
+    tabulated = (max(columns, rows) if correlated else count) <= _TABULATED
+    table = np.empty(max(columns, rows) if correlated else count if tabulated else 0, np.int64)
+    place = np.empty(points, np.int64)
+    order = np.empty(points, np.float64)
+    line = np.empty(points, np.int64)
+    line_keys = np.empty(max(columns, rows), np.uint64)
     bits = offset_bits(count)
     shift = _U64(64 - bits)
     step = 2.0 ** (-bits)
     width = 1.0 / count
     count_bits = permutation_bits(count)
+    row_length = np.float64(columns)
+    per_row = 1.0 / row_length
     for r in range(realizations):
         for d in range(dims):
-            pair_key = dimension_key(keys[r], d - d % 2)
-            if d % 2 == 0:
-                if d == 0:
-                    for i in range(points):
-                        order[i] = start + i
-                elif shuffled:
-                    shuffle(table, count, mix64(pair_key ^ _ORDER))
-                    for i in range(points):
-                        order[i] = table[start + i]
-                else:
-                    for i in range(points):
-                        order[i] = permute(start + i, count, count_bits, mix64(pair_key ^ _ORDER))
+            order_key = mix64(dimension_key(keys[r], d - d % 2) ^ _ORDER)
+            if d > 1 and d % 2 == 0 and shuffled:
+                shuffle(places, count, order_key)
             # Along x the lines are the columns, each with one sub-column per row; along y the reverse.
             lines, sublines = (columns, rows) if d % 2 == 0 else (rows, columns)
             key = dimension_key(keys[r], d)
             second = second_key(key)
             line_key = mix64(key ^ _LINES)
             subline_bits = permutation_bits(sublines)
-            if shuffled:
-                if correlated:
-                    shuffle(within, sublines, line_key)
+            per_line = 0 if correlated else sublines
+            if tabulated and correlated:
+                shuffle(table, sublines, line_key)
+            else:
+                for k in range(lines):
+                    line_keys[k] = line_key if correlated else mix64(line_key + _U64(k))
+                    if tabulated:
+                        shuffle(table[k * sublines :], sublines, line_keys[k])
+            for begin in range(start, start + whole, points):
+                n = min(points, start + whole - begin)
+                if d < 2:
+                    for i in range(n):
+                        order[i] = np.float64(begin + i)
+                elif shuffled:
+                    for i in range(n):
+                        order[i] = np.float64(places[begin + i])
                 else:
-                    for line in range(lines):
-                        shuffle(within[line * sublines :], sublines, mix64(line_key + _U64(line)))
-            row = out[r, d]
-            for i in range(points):
-                column, across = order[i] % columns, order[i] // columns
-                line, other = (column, across) if d % 2 == 0 else (across, column)
-                if shuffled:
-                    subline = within[other] if correlated else within[line * sublines + other]
-                elif correlated:
-                    subline = permute(other, sublines, subline_bits, line_key)
+                    permute_range(place[:n], begin, count, count_bits, order_key)
+                    for i in range(n):
+                        order[i] = np.float64(place[i])
+                for i in range(n):
+                    across = np.floor((order[i] + 0.5) * per_row)
+                    column = order[i] - row_length * across
+                    line[i] = np.int64(column if d % 2 == 0 else across)
+                    place[i] = np.int64(across if d % 2 == 0 else column)
+                if tabulated:
+                    for i in range(n):
+                        place[i] = table[line[i] * per_line + place[i]]
                 else:
-                    subline = permute(other, sublines, subline_bits, mix64(line_key + _U64(line)))
-                cell = np.float64(line * sublines + subline)
-                row[i] = place_in_cell(cell, hash_index(key, second, _U64(start + i)), shift, step, width)
+                    permute_in_lines(place[:n], line[:n], sublines, subline_bits, line_keys)
+                row = out[r, d, begin - start : begin - start + n]
+                for i in range(n):
+                    cell = np.float64(line[i] * sublines + place[i])
+                    row[i] = place_in_cell(cell, hash_index(key, second, _U64(begin + i)), shift, step, width)
 
 
 class _MultiJittered(Sampler):

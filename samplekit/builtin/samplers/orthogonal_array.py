@@ -26,7 +26,7 @@ from samplekit.counts import allows
 from samplekit.errors import UsageError
 from samplekit.numerics.kernel import helper, kernel
 from samplekit.sampling.hashing import dimension_key, hash_index, mix64, second_key
-from samplekit.sampling.permutation import SHUFFLED, permutation_bits, permute, scatter, shuffle
+from samplekit.sampling.permutation import SHUFFLED, permutation_bits, permute_in_lines, permute_range, shuffle
 from samplekit.sampling.sampler import Sampler
 from samplekit.sampling.stratification import offset_bits, place_in_cell
 from samplekit.specs import LatinStrata, OrthogonalArray
@@ -38,7 +38,6 @@ if TYPE_CHECKING:
     from samplekit.specs import SamplerSpec
 
 _U64 = np.uint64
-_U32 = np.uint32
 _ORDER = _U64(0x1F83D9ABFB41BD6B)
 _STRATA = _U64(0x5BE0CD19137E2179)
 _LINES = _U64(0x3C6EF372FE94F82B)
@@ -46,8 +45,8 @@ JITTERED, MULTI_JITTERED, CORRELATED = range(3)
 STYLES = ("jittered", "multi-jittered", "correlated")
 _BLOCK = 1024
 """Points that are made at a time, so that what is known of them stays in the cache."""
-_TABULATED = 4096
-"""Largest number of sub-strata whose order, where all strata share it, is a table."""
+_TABULATED = 1 << 16
+"""Largest number of places within strata that are a table: of one stratum, where all share it, or of all together."""
 _COUNTS = {2: "prime-squares", 3: "prime-cubes"}
 
 
@@ -71,6 +70,32 @@ def _column(out: NDArray[np.float64], coefficients: NDArray[np.float64], column:
         out[i] -= s * np.floor((out[i] + 0.5) * (1.0 / s))
 
 
+@helper
+def _write_coefficients(
+    coefficients: NDArray[np.float64], order: NDArray[np.int64], base: float, count: int, start: int, key: np.uint64
+) -> None:
+    """The digits in base s of the places of start, start + 1, ... in a random order of all points."""
+    strength, whole = coefficients.shape
+    per_base = 1.0 / base
+    if count <= SHUFFLED:
+        shuffle(order, count, key)
+    for begin in range(0, whole, _BLOCK):
+        n = min(_BLOCK, whole - begin)
+        if count > SHUFFLED:
+            permute_range(order[:n], start + begin, count, permutation_bits(count), key)
+        first = start + begin if count <= SHUFFLED else 0
+        for i in range(n):
+            coefficients[0, begin + i] = np.float64(order[first + i])
+        for k in range(strength):
+            row = coefficients[k, begin : begin + n]
+            above = coefficients[min(k + 1, strength - 1), begin : begin + n]
+            for i in range(n):
+                quotient = np.floor((row[i] + 0.5) * per_base)
+                row[i] -= base * quotient
+                if k + 1 < strength:
+                    above[i] = quotient
+
+
 @kernel("void(float64[:,:,::1], uint64[::1], int64, int64, int64, int64, int64)")
 def _fill(
     out: NDArray[np.float64], keys: NDArray[np.uint64], s: int, strength: int, style: int, count: int, start: int
@@ -78,83 +103,63 @@ def _fill(
     realizations, dims, whole = out.shape
     points = min(whole, _BLOCK)
     sublines = count // s
-    shuffled = count <= SHUFFLED
-    place = np.empty(max(points, min(count, SHUFFLED)), np.int64)
-    coefficients = np.empty((strength, points), np.float64)
-    digits = np.empty((strength, points), np.float64)
+    order = np.empty(max(points, min(count, SHUFFLED)), np.int64)
+    coefficients = np.empty((strength, whole), np.float64)
+    digits = np.empty((2, points), np.float64)
+    stratum = np.empty(points, np.int64)
+    place = np.empty(points, np.int64)
     strata = np.empty(s, np.int64)
-    lines = np.empty(s, np.uint64)
-    tabulated = style == CORRELATED and sublines <= _TABULATED
-    table = np.empty(max(SHUFFLED, sublines if tabulated else 0), np.int64)
-    count_bits, subline_bits = permutation_bits(count), permutation_bits(sublines)
+    line_keys = np.empty(s, np.uint64)
+    places = sublines if style == CORRELATED else count
+    tabulated = style != JITTERED and places <= _TABULATED
+    per_line = 0 if style == CORRELATED else sublines
+    table = np.empty(places if tabulated else 0, np.int64)
+    subline_bits = permutation_bits(sublines)
     cells = s if style == JITTERED else count
     bits = offset_bits(cells)
     shift, step, width = _U64(64 - bits), 2.0 ** (-bits), 1.0 / cells
     base = np.float64(s)
     for r in range(realizations):
-        for begin in range(start, start + whole, points):
-            n = min(points, start + whole - begin)
-            order = mix64(keys[r] ^ _ORDER)
-            first = 0
-            if shuffled:
-                shuffle(place, count, order)
-                first = begin
-            else:
+        _write_coefficients(coefficients, order, base, count, start, mix64(keys[r] ^ _ORDER))
+        for d in range(dims):
+            key = dimension_key(keys[r], d)
+            second = second_key(key)
+            shuffle(strata, s, mix64(key ^ _STRATA))
+            line_key = mix64(key ^ _LINES)
+            for line in range(1 if tabulated and style == CORRELATED else s):
+                line_keys[line] = line_key if style == CORRELATED else mix64(line_key + _U64(line))
+                if tabulated:
+                    shuffle(table[line * sublines :], sublines, line_keys[line])
+            # The other columns of the dimension's group: the last group moves back where it would pass column s.
+            group = min(d - d % strength, s + 1 - strength)
+            for begin in range(0, whole, points):
+                n = min(points, whole - begin)
+                block = coefficients[:, begin : begin + n]
+                row = out[r, d, begin : begin + n]
+                _column(digits[0, :n], block, d, base)
                 for i in range(n):
-                    place[i] = scatter(_U32(begin + i), count_bits, order)
-                for i in range(n):
-                    if place[i] >= count:
-                        place[i] = permute(place[i], count, count_bits, order)
-            for i in range(n):
-                rest = np.float64(place[first + i])
-                for k in range(strength):
-                    quotient = np.floor((rest + 0.5) * (1.0 / base))
-                    coefficients[k, i] = rest - base * quotient
-                    rest = quotient
-            for d in range(dims):
-                key = dimension_key(keys[r], d)
-                second = second_key(key)
-                row = out[r, d, begin - start : begin - start + n]
-                _column(digits[0, :n], coefficients[:, :n], d, base)
-                shuffle(strata, s, mix64(key ^ _STRATA))
+                    stratum[i] = np.int64(digits[0, i])
                 if style == JITTERED:
                     for i in range(n):
-                        cell = np.float64(strata[np.int64(digits[0, i])])
-                        row[i] = place_in_cell(cell, hash_index(key, second, _U64(begin + i)), shift, step, width)
+                        cell = np.float64(strata[stratum[i]])
+                        random = hash_index(key, second, _U64(start + begin + i))
+                        row[i] = place_in_cell(cell, random, shift, step, width)
                     continue
-                # The other columns of the dimension's group: the last group moves back where it would pass column s.
-                group = min(d - d % strength, s + 1 - strength)
-                k = 0
+                place[:n] = 0
                 for column in range(group, group + strength):
                     if column != d:
-                        k += 1
-                        _column(digits[k, :n], coefficients[:, :n], column, base)
-                for i in range(n):
-                    other = digits[1, i]
-                    for k in range(2, strength):
-                        other = other * base + digits[k, i]
-                    place[i] = np.int64(other)
-                line_key = mix64(key ^ _LINES)
+                        _column(digits[1, :n], block, column, base)
+                        for i in range(n):
+                            place[i] = place[i] * s + np.int64(digits[1, i])
                 if tabulated:
-                    shuffle(table, sublines, line_key)
                     for i in range(n):
-                        place[i] = table[place[i]]
-                elif style == MULTI_JITTERED and shuffled:
-                    for line in range(s):
-                        shuffle(table[line * sublines :], sublines, mix64(line_key + _U64(line)))
-                    for i in range(n):
-                        place[i] = table[np.int64(digits[0, i]) * sublines + place[i]]
+                        place[i] = table[stratum[i] * per_line + place[i]]
                 else:
-                    for line in range(s):
-                        lines[line] = line_key if style == CORRELATED else mix64(line_key + _U64(line))
-                    for i in range(n):
-                        place[i] = scatter(_U32(place[i]), subline_bits, lines[np.int64(digits[0, i])])
-                    for i in range(n):
-                        if place[i] >= sublines:
-                            place[i] = permute(place[i], sublines, subline_bits, lines[np.int64(digits[0, i])])
+                    permute_in_lines(place[:n], stratum[:n], sublines, subline_bits, line_keys)
                 for i in range(n):
-                    cell = np.float64(strata[np.int64(digits[0, i])] * sublines + place[i])
-                    row[i] = place_in_cell(cell, hash_index(key, second, _U64(begin + i)), shift, step, width)
+                    cell = np.float64(strata[stratum[i]] * sublines + place[i])
+                    random = hash_index(key, second, _U64(start + begin + i))
+                    row[i] = place_in_cell(cell, random, shift, step, width)
 
 
 def _prime_root(count: int, strength: int) -> int:

@@ -19,20 +19,14 @@ import numpy as np
 
 from samplekit.counts import allows, describe, grid_sides
 from samplekit.errors import UsageError
-from samplekit.numerics.kernel import kernel
-from samplekit.sampling.hashing import dimension_key, hash_index, mix64, second_key
-from samplekit.sampling.permutation import SHUFFLED, permutation_bits, permute, scatter, shuffle
+from samplekit.sampling.jittered_blocks import fill_jittered_blocks
 from samplekit.sampling.sampler import Sampler
-from samplekit.sampling.stratification import offset_bits, place_in_cell
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from samplekit.sampling.realizations import Realizations
 
-_U64 = np.uint64
-_U32 = np.uint32
-_ORDER = _U64(0xA54FF53A5F1D36F1)
 _FARTHEST = 100_000
 """Counts that are tried on either side in search of one that fits."""
 
@@ -49,56 +43,6 @@ def block_sizes(dims: int, blocks: tuple[int, ...]) -> list[int]:
 
 def _fits(count: int, sizes: set[int]) -> bool:
     return all(grid_sides(count, size) is not None for size in sizes)
-
-
-@kernel("void(float64[:,:,::1], uint64[::1], int64[::1], int64[::1], int64[::1], int64, int64)")
-def _fill(
-    out: NDArray[np.float64],
-    keys: NDArray[np.uint64],
-    block: NDArray[np.int64],
-    sides: NDArray[np.int64],
-    strides: NDArray[np.int64],
-    count: int,
-    start: int,
-) -> None:
-    """``block``, ``sides``, ``strides`` [D]: first dimension of a dimension's block, its cells, and cells before it."""
-    realizations, dims, points = out.shape
-    place = np.empty(max(points, min(count, SHUFFLED)), np.int64)
-    order = np.empty(points, np.float64)
-    index_bits = permutation_bits(count)
-    for r in range(realizations):
-        for d in range(dims):
-            key = dimension_key(keys[r], d)
-            second = second_key(key)
-            if block[d] == d:
-                order_key = mix64(key ^ _ORDER)
-                first = 0
-                if d == 0:
-                    for i in range(points):
-                        place[i] = start + i
-                elif count <= SHUFFLED:
-                    shuffle(place, count, order_key)
-                    first = start
-                else:
-                    for i in range(points):
-                        place[i] = scatter(_U32(start + i), index_bits, order_key)
-                    for i in range(points):
-                        if place[i] >= count:
-                            place[i] = permute(place[i], count, index_bits, order_key)
-                for i in range(points):
-                    order[i] = np.float64(place[first + i])
-            bits = offset_bits(sides[d])
-            shift = _U64(64 - bits)
-            step = 2.0 ** (-bits)
-            side = np.float64(sides[d])
-            width = 1.0 / side
-            per_cell = 1.0 / np.float64(strides[d])
-            row = out[r, d]
-            for i in range(points):
-                # Integer division by way of float64, which vectorises: the half keeps clear of the rounding.
-                line = np.floor((order[i] + 0.5) * per_cell)
-                cell = line - side * np.floor((line + 0.5) * width)
-                row[i] = place_in_cell(cell, hash_index(key, second, _U64(start + i)), shift, step, width)
 
 
 class UncorrelatedJitter(Sampler):
@@ -136,4 +80,4 @@ class UncorrelatedJitter(Sampler):
             block += [first] * size
             sides += list(grid)
             strides += list(accumulate(grid[:-1], lambda a, b: a * b, initial=1))
-        _fill(out, realizations.keys, np.array(block), np.array(sides), np.array(strides), count, start)
+        fill_jittered_blocks(out, realizations.keys, np.array(block), np.array(sides), np.array(strides), count, start)
