@@ -27,6 +27,8 @@ if TYPE_CHECKING:
         SamplerSpec,
         SceneSpec,
     )
+    from samplekit.study.compare import compare
+    from samplekit.study.results import Results
 
 __version__ = "0.1.0"
 
@@ -36,6 +38,8 @@ _HOME = {
     "samplekit.hookspecs": ("hookimpl",),
     "samplekit.sampling.realizations": ("Realizations",),
     "samplekit.sampling.sampler": ("Sampler",),
+    "samplekit.study.compare": ("compare",),
+    "samplekit.study.results": ("Results",),
     "samplekit.integration.scene": ("Scene",),
     "samplekit.specs": (
         "CommandSpec",
@@ -62,12 +66,14 @@ __all__ = [
     "OrthogonalArray",
     "RandomizerSpec",
     "Realizations",
+    "Results",
     "SamplekitError",
     "Sampler",
     "SamplerSpec",
     "Scene",
     "SceneSpec",
     "UsageError",
+    "compare",
     "estimate",
     "hookimpl",
     "plugins",

@@ -100,7 +100,7 @@ def _errors(image: Array, reference: Array, valid: NDArray[np.bool_]) -> dict[st
     power += shrink
     mean_square = _mean(np.square(scaled[valid]))
     relative, relative_power = _scaled(error / _floored(reference))
-    blurred, blurred_power = _scaled(_blurred(scaled, valid))
+    blurred, blurred_power = _scaled(blur(scaled, valid))
     return {
         "mse": _times_power(mean_square, 2 * power),
         "rmse": _times_power(math.sqrt(mean_square), power),
@@ -152,8 +152,8 @@ def _exact_mean(values: Array) -> float:
     return math.fsum(itertools.chain.from_iterable(chunks)) / values.size if values.size else math.nan
 
 
-def _blurred(error: Array, valid: NDArray[np.bool_]) -> Array:
-    """Blur the error, invalid pixels (0 in ``error``) left out of the kernel."""
+def blur(error: Array, valid: NDArray[np.bool_]) -> Array:
+    """The error after the Gaussian blur of ``blurred_mse``, invalid pixels (0 in ``error``) left out of the kernel."""
     # Written out, it takes as long as scipy.ndimage's and saves its import, which takes longer than either.
     blurred = _convolved(_convolved(error, 0), 1)
     if valid.all():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import operator
 import re
 from collections.abc import Iterable
@@ -104,6 +105,38 @@ def parse_counts(text: str, what: str) -> list[int]:
     if len(counts) > _MOST_COUNTS:
         raise UsageError(f"{what}: {len(counts)} of them, at most {_MOST_COUNTS}")
     return sorted(counts)
+
+
+def parse_range(text: str, what: str) -> tuple[int, int]:
+    """Read ``FIRST..LAST``, two positive integers that do not fall.
+
+    Raises
+    ------
+    UsageError
+        Not of this form.
+    """
+    first, dots, last = text.partition("..")
+    ends = (parse_count(first, what), parse_count(last, what)) if dots and last else (0, 0)
+    if not 1 <= ends[0] <= ends[1]:
+        raise UsageError(f"{what} {text}: expected FIRST..LAST, such as 256..4096")
+    return ends
+
+
+def parse_number(text: str, what: str, expected: str) -> float:
+    """Read a finite number.
+
+    Raises
+    ------
+    UsageError
+        It is none; ``expected`` says what would be right.
+    """
+    match = re.fullmatch(
+        r"[+-]?(\d{1,30}(\.\d{0,30})?|\.\d{1,30})(e[+-]?\d{1,3})?", text.strip(), re.ASCII | re.IGNORECASE
+    )
+    value = float(text) if match else math.nan
+    if not math.isfinite(value):
+        raise UsageError(f"{what} {text}: expected {expected}")
+    return value
 
 
 def check_positive(what: str, value: object) -> int:

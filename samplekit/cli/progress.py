@@ -38,3 +38,25 @@ class Progress:
             self._task = self._bar.add_task(self._what, total=total)
             self._bar.start()
         self._bar.update(self._task, completed=done)
+
+
+class Stages:
+    """Called with what is being done and the numbers done and to do; shows a bar for each stage."""
+
+    def __init__(self) -> None:
+        self._what = ""
+        self._progress: Progress | None = None
+
+    def __enter__(self) -> Stages:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        if self._progress is not None:
+            self._progress.__exit__(*exception)
+
+    def __call__(self, what: str, done: int, total: int) -> None:
+        """Show the state of a stage."""
+        if self._progress is None or what != self._what:
+            self.__exit__(None)
+            self._what, self._progress = what, Progress(what)
+        self._progress(done, total)

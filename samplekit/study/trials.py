@@ -1,0 +1,160 @@
+"""Carrying out a job: its trials drawn, evaluated, compared with the reference, and summed in batches.
+
+A trial of the unit square takes the realisation of a pixel far from those of the others, so that samplers that spread
+error over the pixels of an image cannot tie trials together; a trial of an image takes a seed of its own.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from samplekit.integration.estimator import UNIT_SQUARE, Estimator, Seconds
+from samplekit.integration.pixels import locate
+from samplekit.integration.plan import make_plan
+from samplekit.metrics import blur
+from samplekit.sampling.realizations import Realizations, seed_word
+from samplekit.study.prefixes import prefix_means
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
+
+    from samplekit.study.jobs import Job
+    from samplekit.study.subjects import Subjects
+
+    Array = NDArray[np.float64]
+    Tick = Callable[[int], None]
+
+TRIALS, ERROR, SQUARE, PAIRS, PRODUCT, BLURRED, INVALID = range(7)
+"""Columns of what a job gives: number of trials; sums over them of the error, of its square (for an image: means over
+its pixels), over pairs of neighbouring trials (their number; the product of their errors), of the square of the blurred
+error; number of pixels that are not finite."""
+COLUMNS = 7
+_STRIDE = 4099
+"""Pixels between trials: a prime, so that no tile or period of a sampler gives two the same place within it."""
+_ROW = 2**20
+_PIXELS_AT_ONCE = 2**16
+
+
+def seed_of(seed: int, trial: int) -> int:
+    """The seed of an image: that of the study for the first, hashed for the others."""
+    return int(seed_word((seed + trial * 0x9E3779B97F4A7C15) % 2**64)) if trial else seed
+
+
+def carry_out(job: Job, subjects: Subjects, tick: Tick = lambda _: None) -> Array:
+    """Do a job.
+
+    Returns
+    -------
+    float64[counts, batches, COLUMNS]
+
+    Raises
+    ------
+    SamplekitError
+        A plugin failed.
+    """
+    subjects.prepared(job.sampler, job.counts[-1], subjects.scene(job.scene).dims)
+    with np.errstate(all="ignore"):
+        return _of_square(job, subjects, tick) if job.size == (1, 1) else _of_images(job, subjects, tick)
+
+
+def _of_square(job: Job, subjects: Subjects, tick: Tick) -> Array:
+    scene = subjects.scene(job.scene)
+    trial = np.arange(job.first, job.last, dtype=np.int64)
+    realizations = Realizations.of_pixels(trial % _ROW * _STRIDE, trial // _ROW * _STRIDE, job.seed, scene.blocks)
+    boxes = np.repeat(np.array(UNIT_SQUARE)[:, None], trial.size, axis=1)
+    errors = _means(job, subjects, realizations, boxes, tick) - subjects.reference(job.scene, (1, 1)).image[0, 0]
+    return np.stack([_batches(row, job.batch) for row in errors])
+
+
+def _batches(errors: Array, batch: int) -> Array:
+    """Sums over batches of the errors float64[T] of single pixels."""
+    starts = np.arange(0, errors.size, batch)
+    squares = errors * errors
+    valid = np.isfinite(squares)
+    ones = valid.astype(np.float64)
+    if not valid.all():
+        errors, squares = np.where(valid, errors, 0.0), np.where(valid, squares, 0.0)
+    pairs, products = np.zeros(errors.size), np.zeros(errors.size)
+    paired = errors.size // 2 * 2
+    pairs[:paired:2] = ones[:paired:2] * ones[1:paired:2]
+    products[:paired:2] = errors[:paired:2] * errors[1:paired:2]
+    columns = (ones, errors, squares, pairs, products, np.zeros(errors.size), 1.0 - ones)
+    if batch == 1:
+        return np.stack(columns, axis=1)
+    return np.stack([np.add.reduceat(column, starts) for column in columns], axis=1)
+
+
+def _means(job: Job, subjects: Subjects, realizations: Realizations, boxes: Array, tick: Tick) -> Array:
+    """The estimates float64[counts, P]."""
+    scene, sampler = subjects.scene(job.scene), subjects.sampler(job.sampler)
+    if len(job.counts) > 1:
+        return prefix_means(scene, sampler, job.counts, realizations, boxes, tick)
+    return Estimator(scene, sampler, job.counts[0]).means(realizations, boxes, Seconds(), tick)[None]
+
+
+def _of_images(job: Job, subjects: Subjects, tick: Tick) -> Array:
+    scene, sampler = subjects.scene(job.scene), subjects.sampler(job.sampler)
+    reference = subjects.reference(job.scene, job.size).image.ravel()
+    plan = make_plan(scene, sampler, job.counts[-1], size=job.size, seed=job.seed, reference=False)
+    sampled = subjects.sampled(job.scene, job.size)
+    constant = np.stack([_constant(job, subjects, count) for count in job.counts])
+    rows = np.zeros((job.last - job.first, len(job.counts), COLUMNS))
+    previous = np.empty((len(job.counts), reference.size))
+    for number, trial in enumerate(range(job.first, job.last)):
+        images = constant.copy()
+        seeded = replace(plan, seed=seed_of(job.seed, trial))
+        for start in range(0, sampled.size, _PIXELS_AT_ONCE):
+            pixels = sampled[start : start + _PIXELS_AT_ONCE]
+            images[:, pixels] = _means(job, subjects, *locate(pixels, seeded), tick)
+        errors = images - reference
+        for row, error in enumerate(errors):
+            rows[number, row] = _of_image(error, job.size)
+            if trial % 2 == 1 and number > 0:
+                product = errors[row] * previous[row]
+                product = product[np.isfinite(product)]
+                rows[number - 1, row, PAIRS : PRODUCT + 1] = float(product.size > 0), _mean(product)
+        previous = errors
+    starts = np.arange(0, job.last - job.first, job.batch)
+    return np.add.reduceat(rows, starts, axis=0).transpose(1, 0, 2)
+
+
+def _of_image(error: Array, size: tuple[int, int]) -> Array:
+    """The columns of one image's error float64[P], those of its pair left 0."""
+    columns = np.zeros(COLUMNS)
+    valid = np.isfinite(error * error)
+    if not valid.any():
+        columns[INVALID] = error.size
+        return columns
+    shape = size[1], size[0]
+    blurred = blur(np.where(valid, error, 0.0).reshape(shape), valid.reshape(shape)).ravel()
+    if not valid.all():
+        error, blurred = error[valid], blurred[valid]
+    columns[[TRIALS, ERROR, SQUARE, BLURRED, INVALID]] = (
+        1.0,
+        _mean(error),
+        _mean(error * error),
+        _mean(blurred * blurred),
+        valid.size - error.size,
+    )
+    return columns
+
+
+def _mean(values: Array) -> float:
+    return float(values.mean()) if values.size else 0.0
+
+
+def _constant(job: Job, subjects: Subjects, count: int) -> Array:
+    """The image float64[P] of the pixels that are not sampled, NaN elsewhere."""
+
+    def make() -> Array:
+        estimator = Estimator(subjects.scene(job.scene), subjects.sampler(job.sampler), count)
+        values, place = np.unique(subjects.constant(job.scene, job.size), return_inverse=True)
+        means = [np.nan if np.isnan(value) else estimator.mean_of_constant(float(value)) for value in values]
+        return np.array(means)[place]
+
+    return subjects.kept(("constant mean", job.scene, job.size, count), make)
