@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 STEPS = 64
 """A step is at most this part of the root mean square of the error."""
 
-BUDGET = 15_000_000
+BUDGET = 18_000_000
 """Characters that all images of a page may take together."""
 
 _INVALID = 0xFFFFFF

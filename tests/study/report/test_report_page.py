@@ -12,6 +12,7 @@ import pytest
 from samplekit.errors import SamplekitError
 from samplekit.study.report import write_report
 from samplekit.study.report.page import SCRIPTS, STYLES, page
+from samplekit.study.report.pixels import BUDGET
 
 ASSETS = files("samplekit.study.report") / "assets"
 HOSTILE = "disk:note=\"'><script>alert(1)</script><img src=x onerror=alert(2)>&amp;"
@@ -161,3 +162,13 @@ def test_the_scripts_are_all_taken_and_could_not_end_the_element_they_lie_in():
 
 def test_the_licence_of_the_charts_library_is_in_the_page(parsed):
     assert "Permission to use, copy, modify, and/or distribute this software" in parsed.shown
+
+
+def test_a_large_study_leaves_its_images_the_room_that_they_may_take(study, folder):
+    results = study(
+        scenes=("disk", "gaussian", "zoneplate"),
+        samplers=[f"sampler-{number}" for number in range(8)],
+        counts=[4**power for power in range(7)],
+    )
+    assert len(results.rows) == 8 * 3 * 7
+    assert len(page(results, folder).encode()) + BUDGET < 20_000_000

@@ -2,6 +2,9 @@
 
 const CHART_GAP = 14;
 const REACH = 42;
+const NAME_INDENT = 14;
+const NAME_LETTER = 7.6;
+const LONGEST_NAME = 18;
 
 class Chart {
   // host: element; label: what a screen reader says; onFocus(point or null, chart): called as the pointer moves.
@@ -33,7 +36,12 @@ class Chart {
     const height = Math.round(Math.min(460, Math.max(270, width * 0.74)));
     const named = width >= 440 && this.series.length > 0;
     const longest = Math.max(0, ...this.series.map((one) => one.name.length));
-    const room = { top: 12, bottom: 44, left: 58, right: named ? Math.min(150, 18 + 6.6 * longest) : 14 };
+    const room = {
+      top: 12,
+      bottom: 44,
+      left: 58,
+      right: named ? NAME_INDENT + NAME_LETTER * Math.min(longest, LONGEST_NAME) : 14,
+    };
     Object.assign(this, { width, height, room, named });
     this.svg
       .attr("viewBox", `0 0 ${width} ${height}`)

@@ -1,5 +1,7 @@
 // What is drawn between the axes: guide lines, the target, and for each series a line, markers, intervals, a name.
 
+const ARROW = 22;
+
 // Lines of whole exponents from the point where the worst series begins.
 function drawGuides(chart, positive) {
   const first = d3.min(positive, (point) => point.x);
@@ -60,7 +62,7 @@ function drawSeries(chart, one) {
   const clip = (value) => Math.min(chart.floor, chart.y(Math.max(value, chart.y.domain()[0])));
   // A line joins what can be measured: it breaks at exact zeros.
   for (const run of runs(drawn, (point) => point.y > 0)) {
-    const banded = run.filter((point) => point.low !== null && point.high !== null);
+    const banded = run.filter((point) => point.low > 0 && point.high !== null);
     if (banded.length > 1) {
       const area = d3.area(
         (point) => chart.px(point),
@@ -79,8 +81,12 @@ function drawSeries(chart, one) {
   for (const point of drawn) {
     const [x, y] = [chart.px(point), chart.py(point)];
     let whiskers = "";
-    if (point.y > 0 && point.low !== null && point.high !== null)
-      whiskers += `M${x},${clip(point.low)}V${clip(point.high)}`;
+    if (point.y > 0 && point.low !== null && point.high !== null) {
+      // Zero is infinitely far down: a whisker that reaches it ends soon, in an arrow.
+      const down = point.low > 0 ? "" : "m-3,-4l3,4l3,-4";
+      const end = point.low > 0 ? clip(point.low) : Math.min(chart.floor, y + ARROW);
+      whiskers += `M${x},${clip(point.high)}V${end}${down}`;
+    }
     if (point.left > 0 && point.right > 0) whiskers += `M${chart.x(point.left)},${y}H${chart.x(point.right)}`;
     if (whiskers) layer.append("path").attr("class", "whisker").style("stroke", colour).attr("d", whiskers);
     const marker = layer
@@ -121,7 +127,7 @@ function drawNames(chart) {
       .attr("x", right + 8)
       .attr("y", y + 4)
       .style("fill", seriesColour(one.index))
-      .text(shortened(one.name, 20));
+      .text(shortened(one.name, LONGEST_NAME));
     text.append("title").text(one.name);
   }
 }

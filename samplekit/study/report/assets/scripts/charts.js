@@ -100,11 +100,10 @@ function rowFacts(point) {
     ["95 %", formatInterval(point.low, point.high)],
   ];
   if (own) {
+    const added = secondsOf(row) - own.median;
     facts.push(["time", formatSeconds(secondsOf(row))]);
-    facts.push([
-      "of it measured",
-      `${formatSeconds(own.median)} (${formatSeconds(own.lower)} … ${formatSeconds(own.upper)})`,
-    ]);
+    facts.push(["quartiles", `${formatSeconds(own.lower + added)} … ${formatSeconds(own.upper + added)}`]);
+    if (added > 0) facts.push(["as measured", formatSeconds(own.median)]);
   }
   facts.push(["trials", formatCount(row.trials)]);
   const remarks = [row.replaced, row.left_out && `not in the fit: ${row.left_out}`, ...row.notes];

@@ -1,5 +1,15 @@
 // One colour and one marker for each sampler, the same in every chart.
 
+const symbolTriangleDown = {
+  draw(context, size) {
+    const y = -Math.sqrt(size / (3 * Math.sqrt(3)));
+    context.moveTo(0, -2 * y);
+    context.lineTo(-Math.sqrt(3) * y, y);
+    context.lineTo(Math.sqrt(3) * y, y);
+    context.closePath();
+  },
+};
+
 const MARKERS = [
   d3.symbolCircle,
   d3.symbolSquare,
@@ -8,7 +18,7 @@ const MARKERS = [
   d3.symbolCross,
   d3.symbolStar,
   d3.symbolWye,
-  d3.symbolTimes,
+  symbolTriangleDown,
 ];
 const DASHES = ["", "7 3", "2 3", "9 3 2 3"];
 
