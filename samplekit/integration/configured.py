@@ -14,7 +14,7 @@ from samplekit.registry import BUILTIN, Offer, registry
 from samplekit.specs import PIXEL_FILTER, written
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -96,6 +96,12 @@ class ConfiguredScene:
             # What a plugin does not write must not pass for a result.
             out.fill(np.nan)
             self._guarded("be evaluated", lambda: self._scene.sums(tile, boxes, out))
+
+    def parts(self, tile: NDArray[np.float64], boxes: NDArray[np.float64]) -> Sequence[NDArray[np.float64]]:
+        """What a run in extended precision adds up; see :meth:`Scene.parts`."""
+        if self.at_centre:
+            tile, boxes = _centred(tile, boxes)
+        return self._guarded("be evaluated", lambda: self._scene.parts(tile, boxes))
 
     def exact(self, x_edges: NDArray[np.float64], y_edges: NDArray[np.float64]) -> NDArray[np.float64]:
         """The mean over each pixel, as exact as there is; see :meth:`Scene.exact`."""

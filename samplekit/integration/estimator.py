@@ -14,10 +14,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from samplekit.integration.samples import sample_values
 from samplekit.numerics.summation import BLOCK, PairwiseSum
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     from numpy.typing import NDArray
 
@@ -115,6 +116,12 @@ class Estimator:
         if self.count > BLOCK:
             out[:] = total.total()
 
+    def blocks(self, realizations: Realizations) -> Iterator[NDArray[np.float64]]:
+        """The points, block by block: float64[P, D, n] with n <= 1024, to be used before the next is asked for."""
+        buffer = self._buffer(len(realizations))
+        for start in range(0, self.count, BLOCK):
+            yield self._tile(realizations, start, buffer)
+
     def invalid_samples(self, realizations: Realizations, boxes: NDArray[np.float64]) -> int:
         """The number of samples at which the scene is not finite, over the given pixels."""
         invalid = 0
@@ -123,10 +130,7 @@ class Estimator:
             single_pixel = realizations[pixel : pixel + 1]
             for start in range(0, self.count, BLOCK):
                 tile = self._tile(single_pixel, start, buffer)
-                # Each sample as a pixel of its own: a sum of one value is that value.
-                single = np.ascontiguousarray(tile[0].T[:, :, None])
-                values = np.empty(single.shape[0])
-                self.scene.sums(single, np.repeat(boxes[:, pixel : pixel + 1], values.size, axis=1), values)
+                values = sample_values(self.scene, tile, boxes[:, pixel : pixel + 1])
                 invalid += int(np.count_nonzero(~np.isfinite(values)))
         return invalid
 

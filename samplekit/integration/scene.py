@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from numpy.typing import NDArray
 
@@ -66,6 +66,16 @@ class Scene:
         if values.shape != (pixels * count,):
             raise ValueError(f"value gave shape {values.shape} for {pixels * count} points")
         row_sums(values.reshape(pixels, count), out)
+
+    def parts(self, tile: NDArray[np.float64], boxes: NDArray[np.float64]) -> Sequence[NDArray[np.float64]]:
+        """Numbers float64[P, n] whose exact sum is the value at each sample before it was rounded.
+
+        What a run in extended precision adds up; by default the rounded value itself. ``tile`` and ``boxes`` as in
+        :meth:`sums`.
+        """
+        from samplekit.integration.samples import sample_values
+
+        return (sample_values(self, tile, boxes),)
 
     def exact(self, x_edges: NDArray[np.float64], y_edges: NDArray[np.float64]) -> NDArray[np.float64]:
         """The exact mean over each pixel: float64[h, w] for edges float64[w + 1] and float64[h + 1], as stored.

@@ -1,7 +1,9 @@
 """Sums in a fixed order: the same bits in any tile and on any number of threads.
 
-Inside a block of at most 1024 values eight lanes are summed side by side; blocks are combined pairwise
-(Higham 2002, "Accuracy and Stability of Numerical Algorithms", 4.2).
+Inside a block of at most 1024 values eight lanes are summed side by side, in runs of eight values each that are then
+added up; blocks are combined pairwise (Higham 2002, "Accuracy and Stability of Numerical Algorithms", 4.2; blocked
+summation). The error is at most 27 roundings of the sum of magnitudes and one for each doubling of the number of
+blocks. In one long run roundings of like values all go the same way: 1024 equal values would lose 30 of them.
 """
 
 from __future__ import annotations
@@ -22,14 +24,22 @@ BLOCK = 1024
 
 
 LANES = 8
+RUN = 8 * LANES
+"""Values that are summed before their sum is added to those before."""
 
 
 def lane_sum(values: NDArray[np.float64], count: int) -> float:
-    """The sum of the first ``count`` values: lane l sums values l, l + 8, ...; then lanes in pairs; then the rest."""
+    """The sum of the first ``count`` values: lane l sums values l, l + 8, ...; then lanes in pairs; then the rest.
+
+    A lane adds up the sums of its runs: of values 0 to 63, 64 to 127, ...
+    """
     whole = count - count % LANES
     lanes = [0.0] * LANES
-    for i in range(whole):
-        lanes[i % LANES] += values[i]
+    for start in range(0, whole, RUN):
+        run = [0.0] * LANES
+        for i in range(start, min(start + RUN, whole)):
+            run[i % LANES] += values[i]
+        lanes = [total + part for total, part in zip(lanes, run, strict=True)]
     rest = 0.0
     for i in range(whole, count):
         rest += values[i]
@@ -44,11 +54,17 @@ def _sum_of_lanes(context, values, whole):  # type: ignore[no-untyped-def]
 
     def generate(context, builder, signature, arguments):  # type: ignore[no-untyped-def]
         array = context.make_array(signature.args[0])(context, builder, arguments[0])
-        start, step = (context.get_constant(numba_types.int64, n) for n in (0, LANES))
-        total = cgutils.alloca_once_value(builder, ir.Constant(lanes, [0.0] * LANES))
-        with cgutils.for_range_slice(builder, start, arguments[1], step, inc=True) as (i, _):
-            place = builder.bitcast(builder.gep(array.data, [i]), lanes.as_pointer())
-            builder.store(builder.fadd(builder.load(total), builder.load(place, align=8)), total)
+        zero, lane_step, run_step = (context.get_constant(numba_types.int64, n) for n in (0, LANES, RUN))
+        zeros = ir.Constant(lanes, [0.0] * LANES)
+        total, run = cgutils.alloca_once_value(builder, zeros), cgutils.alloca_once_value(builder, zeros)
+        with cgutils.for_range_slice(builder, zero, arguments[1], run_step, inc=True) as (start, _):
+            builder.store(zeros, run)
+            beyond = builder.add(start, run_step)
+            end = builder.select(builder.icmp_signed("<", beyond, arguments[1]), beyond, arguments[1])
+            with cgutils.for_range_slice(builder, start, end, lane_step, inc=True) as (i, _):
+                place = builder.bitcast(builder.gep(array.data, [i]), lanes.as_pointer())
+                builder.store(builder.fadd(builder.load(run), builder.load(place, align=8)), run)
+            builder.store(builder.fadd(builder.load(total), builder.load(run)), total)
         vector = builder.load(total)
         sums = [builder.extract_element(vector, ir.Constant(ir.IntType(32), lane)) for lane in range(LANES)]
         while len(sums) > 1:

@@ -13,10 +13,13 @@ import numpy as np
 
 from samplekit.errors import UsageError
 from samplekit.integration.configured import ConfiguredScene, configured_scene
+from samplekit.integration.samples import sample_values
 from samplekit.integration.scene import Scene
 from samplekit.numerics.row_sums import row_sums
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
@@ -65,18 +68,14 @@ class Offset(Scene):
         """Those of the scene."""
         return dict(self.scene.needs)
 
-    def values(self, tile: Array, boxes: Array) -> Array:
-        """The scene's own value at each sample: float64[P, n]; see :meth:`Scene.sums`."""
-        pixels, dims, count = tile.shape
-        single = np.ascontiguousarray(tile.transpose(0, 2, 1)).reshape(pixels * count, dims, 1)
-        # Each sample as a pixel of its own: a sum of one value is that value.
-        values = np.empty(pixels * count)
-        self.scene.sums(single, np.repeat(boxes, count, axis=1), values)
-        return values.reshape(pixels, count)
-
     def sums(self, tile: Array, boxes: Array, out: Array) -> None:
         """Sum the rounded values over each pixel's samples: see :meth:`Scene.sums`."""
-        row_sums(self.values(tile, boxes) + self.pedestal, out)
+        row_sums(sample_values(self.scene, tile, boxes) + self.pedestal, out)
+
+    def parts(self, tile: Array, boxes: Array) -> Sequence[Array]:
+        """The scene's own values and the pedestal: their sum before it is rounded."""
+        values = sample_values(self.scene, tile, boxes)
+        return values, np.full_like(values, self.pedestal)
 
     def exact(self, x_edges: Array, y_edges: Array) -> Array:
         """The scene's own reference on the pedestal, rounded once: float64[h, w]."""

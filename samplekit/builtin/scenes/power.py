@@ -35,10 +35,10 @@ def _sums(tile: Array, boxes: Array, a: float, out: Array) -> None:
         out[pixel] = lane_sum(values, tile.shape[2])
 
 
-def _mean_from_zero(x: Array, a: float) -> Array:
-    """Average over [0, x], x > 0."""
-    mean: Array = x**-a / (1.0 - a)
-    return mean
+def _integral_from_zero(x: Array, a: float) -> Array:
+    """Integrate over [0, x]."""
+    integral: Array = x ** (1.0 - a) / (1.0 - a)
+    return integral
 
 
 def _mean_between(near: Array, far: Array, a: float) -> Array:
@@ -88,9 +88,8 @@ class Power(Scene):
         near, far = np.minimum(abs(left), abs(right)), np.maximum(abs(left), abs(right))
         with np.errstate(all="ignore"):
             means = _mean_between(near, far, self.a)
-            means = np.where(near == 0.0, _mean_from_zero(far, self.a), means)
-            across = (-left * _mean_from_zero(-left, self.a) + right * _mean_from_zero(right, self.a)) / (right - left)
-        means = np.where((left < 0.0) & (right > 0.0), across, means)
+            across = (_integral_from_zero(abs(left), self.a) + _integral_from_zero(abs(right), self.a)) / (right - left)
+        means = np.where((left <= 0.0) & (right >= 0.0), across, means)
         return np.broadcast_to(means, (y_edges.size - 1, means.size)).copy()
 
     def constant(self, x_edges: Array, y_edges: Array) -> Array:
