@@ -29,7 +29,9 @@ def shuffle(out: NDArray[np.int64], count: int, key: np.uint64) -> None:
     """Write a random permutation of 0 to count - 1 into the first ``count`` elements."""
     second = second_key(key)
     for i in range(count):
-        j = np.int64(below(hash_index(key, second, _U64(i)), _U64(i + 1)))
+        out[i] = np.int64(below(hash_index(key, second, _U64(i)), _U64(i + 1)))
+    for i in range(count):
+        j = out[i]
         out[i] = out[j]
         out[j] = i
 

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from samplekit import Realizations
 
 _U64 = np.uint64
+_CHUNK = 1024
 
 
 @kernel("void(float64[:,:,::1], uint64[::1], uint64[::1], int64, uint64)")
@@ -37,19 +38,22 @@ def _fill(
     modulus = _U64(count)
     bits = offset_bits(count)
     shift, step, width = _U64(64 - bits), 2.0 ** (-bits), 1.0 / count
+    multiples = np.empty(min(points, _CHUNK), np.int64)
     for d in range(dims):
         generator = generators[d]
+        for i in range(multiples.size):
+            # Below 2^64, as all products here, for the count is at most 2^32.
+            multiples[i] = np.int64(_U64(i) * generator % modulus)
         for r in range(realizations):
             key = dimension_key(keys[r], d)
             within = second_key(key)
-            # Below 2^64, for the count is at most 2^32.
-            numerator = (start * generator + below(key, modulus)) % modulus
-            row = out[r, d]
-            for i in range(points):
-                row[i] = place_in_cell(np.float64(numerator), within, shift, step, width)
-                numerator += generator
-                if numerator >= modulus:
-                    numerator -= modulus
+            for first in range(0, points, multiples.size):
+                origin = np.int64(((start + _U64(first)) * generator + below(key, modulus)) % modulus)
+                row = out[r, d, first : min(first + multiples.size, points)]
+                for i in range(row.size):
+                    numerator = multiples[i] + origin
+                    numerator = numerator - count if numerator >= count else numerator
+                    row[i] = place_in_cell(np.float64(numerator), within, shift, step, width)
 
 
 class Fibonacci(Sampler):
