@@ -44,13 +44,16 @@ def arranged(results: Results) -> tuple[list[Answer], list[str]]:
     lead: dict[str, list[str]] = {scene: [] for scene in results.scenes}
     details: dict[str, list[str]] = {scene: [] for scene in results.scenes}
     for sentence in results.sentences:
-        scene = next((name for name in results.scenes if sentence.startswith(f"{name}: ")), None)
-        if scene is None:
+        for scene in results.scenes:
+            if sentence.startswith(f"{scene}: "):
+                text = sentence.removeprefix(f"{scene}: ")
+                lead[scene].append(text[:1].upper() + text[1:])
+                break
+            if any(sentence.startswith(f"{scene}, {sampler}: ") for sampler in results.samplers):
+                details[scene].append(sentence.removeprefix(f"{scene}, "))
+                break
+        else:
             general.append(sentence)
-            continue
-        text = sentence.removeprefix(f"{scene}: ")
-        single = any(text.startswith(f"{sampler} ") for sampler in results.samplers)
-        (details if single else lead)[scene].append(text[:1] + text[1:])
     fronts = {scene: [choice for choice in results.front if choice.scene == scene] for scene in results.scenes}
     return [Answer(scene, lead[scene], details[scene], budgets(fronts[scene])) for scene in results.scenes], general
 

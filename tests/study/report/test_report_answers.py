@@ -7,11 +7,11 @@ from samplekit.study.results import Choice
 
 
 def test_sentences_stand_with_their_scene_and_those_about_one_sampler_apart(study):
-    sentences = ["disk: jittered needs 3 ms", "disk: up to 1 ms random is best", "gaussian: same", "all is well"]
+    sentences = ["disk, jittered: needs 3 ms", "disk: up to 1 ms random is best", "gaussian: same", "all is well"]
     (disk, gaussian), general = arranged(replace(study(), sentences=sentences))
-    assert disk.lead == ["up to 1 ms random is best"]
-    assert disk.details == ["jittered needs 3 ms"]
-    assert gaussian.lead == ["same"]
+    assert disk.lead == ["Up to 1 ms random is best"]
+    assert disk.details == ["jittered: needs 3 ms"]
+    assert gaussian.lead == ["Same"]
     assert general == ["all is well"]
 
 
@@ -19,7 +19,7 @@ def test_a_scene_whose_name_begins_another_keeps_its_own_sentences(study):
     results = replace(study(scenes=("disk", "disk:radius=0.1")), sentences=["disk:radius=0.1: all alike"])
     (disk, small), _ = arranged(results)
     assert disk.lead == []
-    assert small.lead == ["all alike"]
+    assert small.lead == ["All alike"]
 
 
 def test_choices_of_one_sampler_in_a_row_are_one_range_and_ranges_fill_the_strip():

@@ -9,4 +9,7 @@ for (const host of document.querySelectorAll(".flips")) new Flips(host);
 buildMetric();
 buildTable();
 for (const section of document.querySelectorAll("#compare")) new Comparison(section);
+window.addEventListener("beforeprint", () => {
+  for (const details of document.querySelectorAll("main details")) details.open = true;
+});
 document.documentElement.dataset.ready = "yes";
