@@ -24,11 +24,13 @@ class Figure:
     command
         One that shows the same, or a part of it, on the command line.
     draw
-        Makes it. Equal calls give equal pixels.
+        Makes it. Equal calls give equal pixels, unless it is ``measured``.
     plugins
         Distributions that it needs beside the core.
     chapter
         Figures of one chapter stand together.
+    measured
+        It shows run times, which no two runs have the same: it is made only where there is none.
     """
 
     name: str
@@ -38,3 +40,4 @@ class Figure:
     draw: Callable[[], Drawing]
     plugins: tuple[str, ...] = ()
     chapter: str = ""
+    measured: bool = False

@@ -10,9 +10,9 @@ if TYPE_CHECKING:
 
 def all_figures() -> list[Figure]:
     """Every figure of the gallery."""
-    from samplekit.gallery.figures import conformance, error_spectra, images, samplers, zoneplates
+    from samplekit.gallery.figures import conformance, convergence, error_spectra, images, samplers, zoneplates
 
-    modules = (zoneplates, samplers, images, error_spectra, conformance)
+    modules = (zoneplates, samplers, convergence, images, error_spectra, conformance)
     figures = [figure for module in modules for figure in module.FIGURES]
     chapters = list(dict.fromkeys(figure.chapter for figure in figures))
     return sorted(figures, key=lambda figure: chapters.index(figure.chapter))
