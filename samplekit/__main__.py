@@ -1,6 +1,14 @@
-"""``python -m samplekit``: the command line."""
+"""The command line: ``samplekit``, and ``python -m samplekit``."""
 
-from samplekit.cli import main
+
+def main() -> None:
+    """Run the command line; an interrupt while it is still being imported is no traceback either."""
+    try:
+        from samplekit.cli import main as run
+    except KeyboardInterrupt:
+        raise SystemExit(130) from None
+    run()
+
 
 if __name__ == "__main__":
     main()

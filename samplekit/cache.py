@@ -35,10 +35,14 @@ def cache_folder() -> Path | None:
     chosen = os.environ.get(VARIABLE)
     if chosen == "":
         return None
-    folder = Path(chosen) if chosen else platformdirs.user_cache_path("samplekit", appauthor=False)
     try:
+        folder = Path(chosen) if chosen else platformdirs.user_cache_path("samplekit", appauthor=False)
+        if not chosen and not folder.is_absolute():
+            # A user without a home: it would be a folder called "~" where the process happens to run.
+            return None
         folder.mkdir(parents=True, exist_ok=True)
-    except OSError:
+    except (OSError, RuntimeError):
+        # Newer versions of platformdirs raise where there is no home.
         return None
     return folder
 

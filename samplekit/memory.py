@@ -19,15 +19,16 @@ def check_memory(needed: int, what: str, advice: str = "") -> None:
 
     Raises
     ------
-    SamplekitError
+    UsageError
         They are not.
     """
     if needed <= _UNQUESTIONED_BYTES:
         return
     import psutil
 
-    from samplekit.errors import SamplekitError
+    from samplekit.errors import UsageError
 
     free = psutil.virtual_memory().available
     if needed > free:
-        raise SamplekitError(f"{what} need {needed / 1e9:.3g} GB of memory, and {free / 1e9:.3g} GB are free{advice}")
+        gib = 2**30
+        raise UsageError(f"{what} need {needed / gib:.3g} GiB of memory, and {free / gib:.3g} GiB are free{advice}")

@@ -9,11 +9,15 @@ from __future__ import annotations
 
 import itertools
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from samplekit.errors import UsageError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 Array = NDArray[np.float64]
 
@@ -74,10 +78,8 @@ def metrics(image: ArrayLike, reference: ArrayLike, *, ssim: bool = False, flip:
         raise UsageError(
             f"metrics need two images of one shape [h, w], not {list(image.shape)} and {list(reference.shape)}"
         )
-    if ssim and min(image.shape) < _SSIM_WINDOW:
-        raise UsageError(
-            f"ssim needs at least 7 x 7 pixels, the image has {image.shape[1]} x {image.shape[0]}: leave ssim out"
-        )
+    if ssim:
+        check_ssim(image.shape[::-1])
     valid = np.isfinite(image) & np.isfinite(reference)
     if not valid.all():
         image, reference = np.where(valid, image, 0.0), np.where(valid, reference, 0.0)
@@ -183,6 +185,18 @@ def _convolved(values: Array, axis: int) -> Array:
 
 
 _SSIM_WINDOW = 7
+
+
+def check_ssim(size: Sequence[int]) -> None:
+    """Raise if an image of ``size`` (width, height) is too small for SSIM.
+
+    Raises
+    ------
+    UsageError
+        It has fewer than 7 x 7 pixels.
+    """
+    if min(size) < _SSIM_WINDOW:
+        raise UsageError(f"ssim needs at least 7 x 7 pixels, the image has {size[0]} x {size[1]}: leave ssim out")
 
 
 def _ssim(image: Array, reference: Array, valid: NDArray[np.bool_]) -> float:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 import platform
+import shlex
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Collection, Mapping
 
     from samplekit.integration.plan import Plan
     from samplekit.integration.renderer import Rendering
@@ -26,18 +27,20 @@ def versions() -> dict[str, str]:
     }
 
 
-def command(plan: Plan) -> str:
-    """The command that makes this image: without what the image does not depend on (output, threads)."""
-    words = ["samplekit render", f"--scene {plan.scene.text}", f"--sampler {plan.sampler.text}", f"--spp {plan.count}"]
-    words.append(f"--size {plan.size[0]}x{plan.size[1]}")
+def command(plan: Plan, metrics: Collection[str] = ()) -> str:
+    """The command that makes this image: without what the image does not depend on (output, threads).
+
+    ``metrics``: the names of those that were computed; some are computed on request alone.
+    """
+    words = ["samplekit", "render", "--scene", plan.scene.text, "--sampler", plan.sampler.text]
+    words += ["--spp", str(plan.count), "--size", f"{plan.size[0]}x{plan.size[1]}"]
     if plan.window != (0, 0, *plan.size):
-        words.append("--crop " + ",".join(str(number) for number in plan.window))
-    words.append(f"--seed {plan.seed}")
-    if plan.full:
-        words.append("--full")
-    if not plan.reference:
-        words.append("--no-error")
-    return " ".join(words)
+        words += ["--crop", ",".join(str(number) for number in plan.window)]
+    words += ["--seed", str(plan.seed)]
+    words += ["--full"] if plan.full else []
+    words += [] if plan.reference else ["--no-error"]
+    words += [f"--{name}" for name in ("ssim", "flip") if name in metrics]
+    return shlex.join(words)
 
 
 def describe(rendering: Rendering) -> dict[str, Any]:
@@ -45,7 +48,7 @@ def describe(rendering: Rendering) -> dict[str, Any]:
     plan = rendering.plan
     return {
         "schema": SCHEMA,
-        "command": command(plan),
+        "command": command(plan, rendering.metrics),
         "versions": versions(),
         "seed": str(plan.seed),
         "sampler": plan.sampler.text,

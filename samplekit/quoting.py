@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+
+_COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 _LONGEST_VALUE = 60
 _LONGEST_REASON = 200
 
@@ -18,7 +21,7 @@ def quoted(value: object) -> str:
 def reason(error: BaseException) -> str:
     """What an exception says: its type, and its text if it has one."""
     try:
-        text = " ".join(str(error).split())
+        text = " ".join(_COLOUR.sub("", str(error)).split())
     except Exception as second:
         text = f"(its text raises {type(second).__name__})"
     return f"{type(error).__name__}: {text}"[:_LONGEST_REASON] if text else type(error).__name__

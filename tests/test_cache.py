@@ -4,6 +4,7 @@ import sys
 from pathlib import Path
 
 import numpy as np
+import platformdirs
 import pytest
 
 from samplekit import cache
@@ -161,3 +162,17 @@ def test_processes_at_the_same_work_agree(folder):
     assert [process.communicate(timeout=60)[0].strip() for process in processes] == ["True"] * 3
     assert all(path.suffix == ".npy" for path in folder.iterdir())
     assert len(list(folder.iterdir())) == 30
+
+
+def no_home(*_, **__):
+    raise RuntimeError("could not determine the home directory")
+
+
+@pytest.mark.parametrize("found", [no_home, lambda *_, **__: Path("~/.cache/samplekit")])
+def test_without_a_home_nothing_is_kept_and_no_folder_is_made(tmp_path, monkeypatch, found):
+    """What platformdirs gives to a user without a home: an error, or "~" as it is in its older versions."""
+    monkeypatch.delenv(VARIABLE, raising=False)
+    monkeypatch.setattr(platformdirs, "user_cache_path", found)
+    monkeypatch.chdir(tmp_path)
+    assert cache_folder() is None
+    assert list(tmp_path.iterdir()) == []

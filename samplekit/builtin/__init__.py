@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 
+from samplekit.builtin.declarations.commands import COMMANDS
 from samplekit.builtin.declarations.samplers import SAMPLERS
 from samplekit.hookspecs import hookimpl
-from samplekit.specs import Option, RandomizerSpec, SamplerSpec, SceneSpec
+from samplekit.specs import CommandSpec, Option, RandomizerSpec, SamplerSpec, SceneSpec
 
 _RANDOMIZERS = "samplekit.builtin.randomizers."
 _SCENES = "samplekit.builtin.scenes."
@@ -200,3 +201,9 @@ def samplekit_scenes() -> list[SceneSpec]:
             purposes=(("pixel", 2), ("direction", 2)),
         ),
     ]
+
+
+@hookimpl
+def samplekit_commands() -> list[CommandSpec]:
+    """The built-in commands."""
+    return list(COMMANDS)

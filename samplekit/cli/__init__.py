@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import errno
 import gc
 import os
 import sys
@@ -11,17 +13,16 @@ from typing import Annotated, Any, TextIO
 import typer
 
 from samplekit import __version__
-from samplekit.cli.check import check
-from samplekit.cli.gallery import gallery
-from samplekit.cli.info import info
-from samplekit.cli.listing import list_
-from samplekit.cli.new_plugin import new_plugin
+from samplekit.builtin.declarations.commands import COMMANDS
 from samplekit.cli.plugin_commands import PluginGroup
-from samplekit.cli.points import points
-from samplekit.cli.render import render
+from samplekit.cli.single_options import SingleOptionsCommand
 from samplekit.errors import SamplekitError, UsageError
 
 DONE, FAILED, WRONG_USE, CHECK_FAILED, INTERRUPTED = 0, 1, 2, 3, 130
+
+_LONGEST_WORD, _LONGEST_MESSAGE = 300, 6000
+"""Letters; what somebody pasted by mistake is not shown whole."""
+_STREAM_ERRORS = (errno.ENOSPC, errno.EIO, errno.EFBIG, errno.EBADF)
 
 # typer does not export the bases of its own exceptions, and they live in a private module.
 _TyperUsageError: type[Exception] = typer.BadParameter.__mro__[1]
@@ -52,13 +53,8 @@ def _main(
     """A laboratory for the point samplers of rendering."""
 
 
-app.command("render")(render)
-app.command("points")(points)
-app.command("check")(check)
-app.command("list")(list_)
-app.command("info")(info)
-app.command("new-plugin")(new_plugin)
-app.command("gallery")(gallery)
+for _spec in COMMANDS:
+    app.command(_spec.name, cls=SingleOptionsCommand)(_spec.load())
 
 
 def main() -> None:
@@ -92,6 +88,9 @@ def run(arguments: list[str]) -> int:
     except MemoryError:
         return _failed("out of memory", FAILED, arguments)
     except Exception as error:
+        if isinstance(error, OSError) and error.errno in _STREAM_ERRORS and error.filename is None:
+            _abandon_stdout()
+            return _failed(f"cannot write to standard output: {error.strerror}", FAILED, arguments)
         if os.environ.get("SAMPLEKIT_TRACEBACK"):
             raise
         what = " ".join(f"{type(error).__name__}: {error}".split())
@@ -99,13 +98,18 @@ def run(arguments: list[str]) -> int:
 
 
 def _abandon_stdout() -> None:
-    """The reader left: nothing more can be said on stdout, and Python must not try when it exits."""
+    """Nothing more can be said on stdout, and Python must not try when it exits."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _message(error: Exception) -> str:
     formatted: Any = getattr(error, "format_message", lambda: str(error))
-    return " ".join(str(formatted()).split())
+    words = " ".join(word if len(word) <= _LONGEST_WORD else _shortened(word) for word in str(formatted()).split())
+    return words if len(words) <= _LONGEST_MESSAGE else f"{words[:_LONGEST_MESSAGE]}..."
+
+
+def _shortened(word: str) -> str:
+    return f"{word[: _LONGEST_WORD // 2]}...{word[-_LONGEST_WORD // 4 :]}"
 
 
 def _failed(message: str, status: int, arguments: list[str]) -> int:
@@ -114,9 +118,11 @@ def _failed(message: str, status: int, arguments: list[str]) -> int:
 
         try:
             print(json.dumps({"schema": "samplekit.error/1", "error": message}), flush=True)  # noqa: T201
-        except BrokenPipeError:
+        except OSError:
             _abandon_stdout()
     # Without arguments the help has been shown, and there is nothing to add.
     if message:
-        print(f"samplekit: {message}", file=sys.stderr)  # noqa: T201
+        # Where even standard error takes nothing, the status tells.
+        with contextlib.suppress(OSError):
+            print(f"samplekit: {message}", file=sys.stderr, flush=True)  # noqa: T201
     return status

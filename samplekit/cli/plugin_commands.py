@@ -2,13 +2,26 @@
 
 from __future__ import annotations
 
-from typing import Any
+import functools
+import os
+from typing import TYPE_CHECKING, Any
 
 import typer
 from typer.core import TyperGroup
 
+from samplekit.cli.single_options import SingleOptionsCommand
+from samplekit.errors import SamplekitError, UsageError
+from samplekit.guard import Guard
+from samplekit.quoting import reason
+
+if TYPE_CHECKING:
+    from samplekit.registry import Offer
+
 OFFICIAL = {"spectrum": "samplekit-spectrum", "predict": "samplekit-spectrum"}
 """Commands of our own plugins, by the distribution that they come with: who misses one is told where it is."""
+
+# typer does not export the base of its own exceptions, and it lives in a private module.
+_TyperError: type[Exception] = typer.BadParameter.__mro__[2]
 
 _CHOSEN = "samplekit.command-chosen"
 
@@ -33,19 +46,45 @@ class PluginGroup(TyperGroup):
         own = super().get_command(ctx, cmd_name)
         if own is not None:
             return own
-        from samplekit.errors import UsageError
         from samplekit.registry import registry
 
         try:
             offer = registry().find("command", cmd_name)
         except UsageError as error:
+            if ctx.resilient_parsing:
+                # Completion of what cannot be: there is nothing to complete.
+                return None
             raise UsageError(_unknown(cmd_name, super().list_commands(ctx), str(error))) from None
         if not ctx.meta.get(_CHOSEN):
             # Help needs the declaration alone.
-            return typer.main.get_command(_described(offer.spec.name, offer.spec.summary))
-        single = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
-        single.command(offer.spec.name, help=_plain(offer.spec.summary))(offer.spec.load())
-        return typer.main.get_command(single)
+            return typer.main.get_command(_described(offer.called, offer.spec.summary))
+        try:
+            return _made(offer)
+        except SamplekitError:
+            if ctx.resilient_parsing:
+                return None
+            raise
+
+
+def _made(offer: Offer) -> Any:
+    """The command of a plugin, whose faults name it."""
+    guard = Guard(f"command {offer.called}", offer.plugin)
+    run = guard("cannot be set up", offer.spec.load, callable, "a function")
+
+    @functools.wraps(run)
+    def guarded(*arguments: Any, **options: Any) -> Any:
+        try:
+            return run(*arguments, **options)
+        except (SamplekitError, MemoryError, OSError, typer.Exit, typer.Abort, _TyperError):
+            raise
+        except Exception as error:
+            if os.environ.get("SAMPLEKIT_TRACEBACK"):
+                raise
+            raise guard.blame(f"failed: {reason(error)}") from error
+
+    single = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
+    single.command(offer.called, help=_plain(offer.spec.summary), cls=SingleOptionsCommand)(guarded)
+    return guard("cannot be set up", lambda: typer.main.get_command(single))
 
 
 def _plain(summary: str) -> str:
@@ -62,17 +101,19 @@ def _described(name: str, summary: str) -> typer.Typer:
     return app
 
 
-def _unknown(name: str, own: list[str], reason: str) -> str:
+def _unknown(name: str, own: list[str], said: str) -> str:
     import difflib
 
-    _, _, plugins = reason.partition(" (plugins ")
+    _, _, plugins = said.partition(" (plugins ")
     plugins = f" (plugins {plugins}" if plugins else ""
     if name in OFFICIAL:
         where = f"{OFFICIAL[name]} (plugins/{OFFICIAL[name].removeprefix('samplekit-')} in samplekit's sources)"
         return f"the command {name!r} comes with the plugin {where}, which is not installed or did not load{plugins}"
+    if "is offered by" in said:
+        return said
     from samplekit.registry import registry
 
-    others = registry().all("command")
+    others = [other for other in registry().all("command") if other not in own]
     near = difflib.get_close_matches(name, [*own, *others], n=1, cutoff=0.5)
     if near:
         return f"unknown command {name!r}: did you mean {near[0]}?"

@@ -54,6 +54,7 @@ def points(
 
     from samplekit.cli.notices import announce_compilation
     from samplekit.cli.progress import Progress
+    from samplekit.memory import check_memory
     from samplekit.parsing import parse_count, parse_seed
     from samplekit.pointsets.write import check_path, title_of, write_points
 
@@ -67,7 +68,8 @@ def points(
 
     source = configured_sampler(sampler)
     source.check(number, dims)
-    _check_memory(number * dims * realizations)
+    # A float64 as the sampler makes it, and another in the order of the output.
+    check_memory(2 * 8 * number * dims * realizations, "these points")
     with Progress("preparing") as progress:
         source.prepare(number, dims, progress)
     values = source.points(number, dims, realizations=realizations, seed=start)
@@ -105,31 +107,17 @@ def points(
     return 0
 
 
-def _check_memory(coordinates: int) -> None:
-    """Raise before a system that promises more memory than it has ends the process half way.
-
-    Raises
-    ------
-    SamplekitError
-        There is not enough memory for so many coordinates.
-    """
-    import psutil
-
-    from samplekit.errors import SamplekitError
-
-    # A float64 as the sampler makes it, and another in the order of the output.
-    needed, free = 2 * 8 * coordinates, psutil.virtual_memory().available
-    if needed > free:
-        raise SamplekitError(f"these points need {needed / 1e9:.3g} GB of memory, and {free / 1e9:.3g} GB are free")
-
-
 def _metadata(source: ConfiguredSampler, count: int, dims: int, seed: int) -> dict[str, Any]:
     """How a picture's points were made; the same for the same command, so no times and no paths."""
+    import shlex
+
     from samplekit.provenance import versions
 
+    words = ["samplekit", "points", "--sampler", source.text, "--count", str(count), "--dims", str(dims)]
+    words += ["--seed", str(seed)]
     return {
         "schema": SCHEMA,
-        "command": f"samplekit points --sampler {source.text} --count {count} --dims {dims} --seed {seed}",
+        "command": shlex.join(words),
         "versions": versions(),
         # As text, as in the images of renderings: many JSON readers round integers beyond 2^53.
         "seed": str(seed),

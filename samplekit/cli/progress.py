@@ -21,11 +21,23 @@ class Progress:
         return self
 
     def __exit__(self, *exception: object) -> None:
+        self._remove()
+
+    @property
+    def shown(self) -> bool:
+        """Whether the bar is on the terminal."""
+        return self._bar is not None
+
+    def _remove(self) -> None:
         if self._bar is not None:
             self._bar.stop()
+            self._bar = None
 
     def __call__(self, done: int, total: int) -> None:
-        """Show the state."""
+        """Show the state; a bar goes when all is done."""
+        if done >= total:
+            self._remove()
+            return
         now = time.monotonic()
         if now - self._began < 1.0 or now - self._shown_at < 0.1 or not sys.stderr.isatty():
             return

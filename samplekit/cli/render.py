@@ -58,6 +58,20 @@ def render(
 
     Example: samplekit render --sampler hammersley --spp 16
     """
+    from samplekit.parsing import parse_count, parse_crop, parse_seed, parse_size
+
+    if no_error and (ssim or flip):
+        from samplekit.errors import UsageError
+
+        raise UsageError("--ssim and --flip compare with the reference, which --no-error leaves out")
+    count, width_height = parse_count(spp, "spp"), parse_size(size)
+    window = parse_crop(crop, width_height) if crop else None
+    start = parse_seed(seed)
+    thread_count = parse_count(threads, "threads") if threads else None
+    from samplekit.images.rendering import check_stem
+
+    # Before kernels are compiled: half a minute for a folder that takes no file is lost.
+    check_stem(output, "image")
     from samplekit.cli.notices import announce_compilation
 
     announce_compilation()
@@ -65,26 +79,19 @@ def render(
     from samplekit.integration.configured import configured_scene
     from samplekit.integration.plan import make_plan
     from samplekit.integration.renderer import render_plan
-    from samplekit.parsing import parse_count, parse_crop, parse_seed, parse_size
     from samplekit.sampling.configured import configured_sampler
 
-    if no_error and (ssim or flip):
-        from samplekit.errors import UsageError
-
-        raise UsageError("--ssim and --flip compare with the reference, which --no-error leaves out")
-    width_height = parse_size(size)
-    thread_count = parse_count(threads, "threads") if threads else None
     plan = make_plan(
         configured_scene(scene),
         configured_sampler(sampler),
-        parse_count(spp, "spp"),
+        count,
         size=width_height,
-        crop=parse_crop(crop, width_height) if crop else None,
-        seed=parse_seed(seed),
+        crop=window,
+        seed=start,
         full=full,
         reference=not no_error,
     )
-    stem = _stem(output, plan)
+    stem = check_stem(output, _name(plan))
     if explain:
         for line in plan.explain():
             typer.echo(line, err=True)
@@ -94,12 +101,13 @@ def render(
         )
     files = _write(stem, rendering)
     _report(rendering, files, json)
+    if no_error:
+        _warn_of_an_old_error_picture(stem)
     invalid = int(rendering.metrics.get("invalid_pixels", 0))
     if invalid:
         from samplekit.errors import SamplekitError
 
-        samples = int(rendering.metrics.get("invalid_samples", 0))
-        message = f"{samples} samples of {plan.scene.text} were not finite, in {invalid} pixels: shown in magenta"
+        message = _of_invalid(plan, int(rendering.metrics.get("invalid_samples", 0)), invalid)
         if json:
             typer.echo(f"samplekit: {message}", err=True)
             return 1
@@ -107,12 +115,23 @@ def render(
     return 0
 
 
-def _stem(output: str, plan: Plan) -> Path:
-    """The path of the files without their endings, checked before any work is done."""
-    from samplekit.images.rendering import check_stem
+def _of_invalid(plan: Plan, samples: int, pixels: int) -> str:
+    what = f"{samples} samples of {plan.scene.text} were not finite"
+    if not samples:
+        # The image is at fault, or else the reference: metrics count the pixels of both.
+        what = f"the means of {plan.scene.text}, or its reference, were not finite though all samples were"
+    return f"{what}, in {pixels} pixels: shown in magenta"
 
-    name = f"{plan.scene.text}-{plan.sampler.text}-{plan.count}spp".replace(":", "-").replace("/", "-")
-    return check_stem(output, name)
+
+def _name(plan: Plan) -> str:
+    return f"{plan.scene.text}-{plan.sampler.text}-{plan.count}spp".replace(":", "-").replace("/", "-")
+
+
+def _warn_of_an_old_error_picture(stem: Path) -> None:
+    """Say that a picture beside the new files shows the error of other ones."""
+    old = stem.with_name(f"{stem.name}.error.png")
+    if old.exists():
+        typer.echo(f"samplekit: {old} is of an earlier rendering: this one has no error (--no-error)", err=True)
 
 
 def _write(stem: Path, rendering: Rendering) -> list[Path]:

@@ -22,6 +22,12 @@ if TYPE_CHECKING:
 
 _DIMS, _QUICK_DIMS = 8, 4
 _COUNT = 4096
+_EXCESS = 2.0
+"""Variance of a correlation, relative to that of independent points, that is none of the sampler's faults.
+
+Where padded dimensions are nets of base 2 whose indices are shuffled as Owen scrambles, pairs of points stay pairs, and
+lie in opposite halves of each dimension: N / 2 signs are random in place of N values, which is twice the variance.
+"""
 _REALIZATIONS, _QUICK_REALIZATIONS = 64, 16
 
 
@@ -29,9 +35,9 @@ def _has_pairs(spec: SamplerSpec) -> str:
     return "it has one dimension" if spec.dimensions[1] == 1 else ""
 
 
-@check("across-dimensions", 14, tolerance="family-wise 1e-3: about 5 / sqrt(n)", requires=_has_pairs)
+@check("across-dimensions", 14, tolerance="family-wise 1e-3: about 7 / sqrt(n)", requires=_has_pairs)
 def check_across_dimensions(subject: Subject) -> None:
-    """Two dimensions of a set are correlated no more than random ones, in every set and on average."""
+    """Two dimensions of a set are correlated little more than random ones, in every set and on average."""
     dims = subject.most_dims(_QUICK_DIMS if subject.quick else _DIMS)
     randomized = subject.spec.randomized
     counts = subject.counts(_COUNT, dims=dims)
@@ -47,8 +53,8 @@ def check_across_dimensions(subject: Subject) -> None:
     tests = 2 * first.size
     # Of independent coordinates r has mean 0 and variance 1 / (n - 1).
     squares = (count - 1) * (correlations**2).sum(axis=0)
-    limit = chi_square_threshold(tests, realizations)
-    means = np.abs(correlations.mean(axis=0)) * math.sqrt(realizations * (count - 1))
+    limit = _EXCESS * chi_square_threshold(tests, realizations)
+    means = np.abs(correlations.mean(axis=0)) * math.sqrt(realizations * (count - 1) / _EXCESS)
     for pair in range(first.size):
         i, j = int(first[pair]), int(second[pair])
         row = int(np.abs(correlations[:, pair]).argmax())
@@ -65,7 +71,7 @@ def check_across_dimensions(subject: Subject) -> None:
             raise CheckFailed(
                 f"dimensions {i} and {j} have correlation {float(correlations[:, pair].mean()):.3g} on average over"
                 f" {realizations} sets, at most"
-                f" {normal_threshold(tests) / math.sqrt(realizations * (count - 1)):.2g} expected",
+                f" {normal_threshold(tests) * math.sqrt(_EXCESS / realizations / (count - 1)):.2g} expected",
                 example,
             )
 

@@ -28,6 +28,10 @@ def encode(metadata: Mapping[str, Any]) -> str:
         raise SamplekitError(f"the metadata cannot be stored as JSON: {error}") from error
 
 
+def _refuse(constant: str) -> None:
+    raise ValueError(f"{constant} is no JSON")
+
+
 def decode(text: str) -> dict[str, Any]:
     """Return the metadata in the text of an attribute.
 
@@ -37,7 +41,9 @@ def decode(text: str) -> dict[str, Any]:
         No JSON object.
     """
     try:
-        metadata = json.loads(text)
+        metadata = json.loads(text, parse_constant=_refuse)
+        # Half a character, which JSON can write and no terminal can show, ends here as well.
+        json.dumps(metadata, ensure_ascii=False).encode()
     except (ValueError, RecursionError) as error:
         raise SamplekitError(f"its metadata is damaged: {error}") from None
     if not isinstance(metadata, dict):

@@ -131,6 +131,14 @@ class ConfiguredScene:
         """The mean over all dimensions but the pixel's at the points x by y; see :meth:`Scene.exact_at`."""
         return self._guarded("give its reference", lambda: self._scene.exact_at(x, y))
 
+    def check_reference(self, x_edges: NDArray[np.float64], y_edges: NDArray[np.float64]) -> None:
+        """Raise if the scene's own reference fails in these pixels; one by quadrature is not tried."""
+        from samplekit.integration.scene import Scene
+
+        kind = type(self._scene)
+        if kind.exact_at is not Scene.exact_at if self.at_centre else kind.exact is not Scene.exact:
+            self.reference(x_edges, y_edges)
+
     def constant(self, x_edges: NDArray[np.float64], y_edges: NDArray[np.float64]) -> NDArray[np.float64]:
         """The value of each pixel that is provably constant, NaN elsewhere; see :meth:`Scene.constant`."""
         return self._image("tell constant pixels", lambda: self._scene.constant(x_edges, y_edges), x_edges, y_edges)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from samplekit.errors import UsageError
 from samplekit.integration.estimator import TILE_BYTES, Estimator, Seconds
 from samplekit.integration.pixels import locate
 from samplekit.integration.threads import asking_for, check_threads
@@ -85,11 +86,15 @@ def render_plan(
     Raises
     ------
     UsageError
-        Fewer than one thread.
+        Fewer than one thread; metrics without a reference, or SSIM of an image that is too small for it.
     SamplekitError
         A plugin failed.
     """
     threads = check_threads(threads)
+    _check_metrics(plan, ssim, flip)
+    if plan.reference:
+        # One that cannot be given is told before the samples are drawn, not after.
+        plan.scene.check_reference(plan.x_edges[:2], plan.y_edges[:2])
     began = time.perf_counter()
     estimator = Estimator(plan.scene, plan.sampler, plan.count, tile_bytes or TILE_BYTES)
     plan.sampler.prepare(plan.count, plan.scene.dims, preparing)
@@ -139,6 +144,15 @@ def render_plan(
         "total": time.perf_counter() - began,
     }
     return Rendering(shaped, reference, error, metrics, seconds, plan, reference_kind)
+
+
+def _check_metrics(plan: Plan, ssim: bool, flip: bool) -> None:
+    if (ssim or flip) and not plan.reference:
+        raise UsageError("ssim and flip compare with the reference, which is left out")
+    if ssim:
+        from samplekit.metrics import check_ssim
+
+        check_ssim(plan.window[2:])
 
 
 class _Clock:

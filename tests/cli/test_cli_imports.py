@@ -91,6 +91,10 @@ def completed(plugins, tmp_path):
     return complete
 
 
+def test_behind_a_command_that_is_none_completion_says_nothing_on_standard_error(completed):
+    assert "--sampler" not in completed("samplekit nope ")
+
+
 def test_the_shell_completes_names_of_ours_and_of_plugins(completed, plugins):
     plugins.add(
         "toys",

@@ -90,6 +90,8 @@ def failed(command, name, *, statuses=(1, 2)):
         (png(HEADER, PIXEL, END), "not made by samplekit"),
         (png(HEADER, (b"tEXt", b"samplekit\0no json"), PIXEL, END), "metadata is damaged"),
         (png(HEADER, (b"tEXt", b"samplekit\0[1, 2]"), PIXEL, END), "metadata is damaged"),
+        (png(HEADER, (b"tEXt", b'samplekit\0{"a": NaN}'), PIXEL, END), "metadata is damaged: NaN is no JSON"),
+        (png(HEADER, (b"tEXt", b'samplekit\0{"a": "\\ud800"}'), PIXEL, END), "metadata is damaged"),
         (png(HEADER, (b"tEXt", b"samplekit\0" + b"[" * 100_000), PIXEL, END), "metadata is damaged"),
         (png(HEADER, PIXEL), "damaged"),
         (png(HEADER), "damaged"),

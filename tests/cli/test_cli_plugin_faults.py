@@ -67,3 +67,70 @@ def test_a_closed_stream_does_no_harm(tmp_path, call):
     )
     assert "internal error" not in done.stdout + done.stderr
     assert done.stdout.count("\n") <= 1
+
+
+def test_nobody_takes_a_command_of_ours(plugins):
+    plugins.offer("toys", "command", "CommandSpec('render','toyp:x','mine')")
+    (toys,) = [plugin for plugin in samplekit.plugins() if plugin.name == "toys"]
+    assert toys.problems == ["command 'render': the name belongs to samplekit's own command"]
+
+
+def test_a_command_of_two_plugins_is_chosen_by_its_plugin(command, plugins):
+    for name in ("blocks", "cars"):
+        plugins.offer(name, "command", f"CommandSpec('juggle','toy_{name}:juggle','')")
+        plugins.module(f"toy_{name}", f"def juggle():\n    print('{name}')\n")
+    assert "blocks/juggle or cars/juggle" in command("juggle").error
+    assert command("cars/juggle").out == "cars\n"
+    assert "blocks/juggle" in command("--help").out
+
+
+@pytest.mark.parametrize("target", ["5", "lambda a: {}['b']"])
+def test_what_is_no_command_is_named(command, plugins, target):
+    plugins.offer("toys", "command", "CommandSpec('juggle','toy_command:juggle','')")
+    plugins.module("toy_command", f"juggle = {target}")
+    assert "command juggle of plugin toys" in command("juggle", "1").error
+
+
+def test_what_a_plugin_prints_while_it_is_found_is_no_result(command, plugins):
+    plugins.add("toys", "print('hello')\n")
+    done = command("list", "--json")
+    assert "plugins" in done.report
+    assert done.err == "hello\n"
+
+
+@pytest.mark.parametrize(
+    "declared",
+    [
+        "options=(Option('r', float('inf'), '', 0, float('inf')),)",
+        "options=(Option('r', float('nan')),)",
+        "options=(Option('r', 1.0, object()),)",
+        "expected_failures=[object()]",
+        "fresh_options={'x': object()}",
+        "reference=object()",
+        "promises=(__import__('samplekit').MinimumDistance(float('nan')),)",
+    ],
+)
+def test_declarations_that_are_no_plain_data_are_a_problem_of_their_plugin_alone(command, plugins, declared):
+    plugins.offer("toys", "sampler", f"SamplerSpec('toy', 'toyp:X', 's', {declared})")
+    report = command("list", "--json").report
+    assert "toy" not in [sampler["name"] for sampler in report["samplers"]]
+    (toys,) = [plugin for plugin in report["plugins"] if plugin["name"] == "toys"]
+    assert len(toys["problems"]) == 1
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "Toy = dict",
+        "class Toy(Scene):\n  def dimensions(self): return {'pixel': 'two'}",
+        "class Toy(Scene):\n  def dimensions(self): return {}",
+        "class Toy(Scene):\n  def dimensions(self): return {'pixel': 2.5}",
+        "class Toy(Scene):\n  def value(self, p): return p[0]\n  def exact(self, x, y): return np.full((8, 8), 'a')",
+        "class Toy(Scene):\n  def value(self, p): return p[0]\n  def constant(self, x, y): return np.full((8, 8), 'a')",
+    ],
+)
+def test_a_scene_that_answers_nonsense_is_named(command, plugins, body):
+    offer_scene(plugins, body)
+    done = command(*RENDER_SCENE)
+    assert done.status == 1
+    assert done.error.startswith("scene toy of plugin toys (toys-distribution 1.0) cannot ")

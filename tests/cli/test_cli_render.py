@@ -16,6 +16,7 @@ import samplekit
 from samplekit.images.exr import read_parts
 from samplekit.images.info import read_info
 from samplekit.images.png import read_png
+from samplekit.integration.estimator import Estimator
 
 SMALL = ("--sampler", "hammersley", "--spp", "4", "--size", "8")
 CONTRACT = ["mse", "rmse", "mae", "max_error", "bias", "psnr", "samples", "dims", "pixels_sampled", "pixels_left_out"]
@@ -106,6 +107,39 @@ def test_the_command_in_the_file_makes_the_file_again(command, tmp_path):
     assert contents(tmp_path) == first
 
 
+def test_the_command_in_the_file_has_its_metrics_plugins_and_quotes(command, plugins, tmp_path):
+    for name in ("blocks", "cars"):
+        plugins.offer(name, "sampler", 'SamplerSpec("toy", "toy_points:Toy", "", options=(Option("text", ""),))')
+    plugins.module(
+        "toy_points",
+        """
+        from samplekit import Sampler
+
+        class Toy(Sampler):
+            def __init__(self, text):
+                self.seed = len(text)
+
+            def draw(self, count, dims, rng):
+                return rng.random((count + self.seed, dims))[self.seed :]
+        """,
+    )
+    arguments = ("--sampler", "cars/toy:text=a 'b' $c", "--spp", "4", "--size", "8", "--ssim", "--flip")
+    assert command("render", *arguments, "-o", "a.exr").status == 0
+    first = contents(tmp_path)
+    again = shlex.split(read_info(tmp_path / "a.exr")["metadata"]["command"])
+    assert command(*again[1:], "--output", "a.exr").status == 0
+    assert contents(tmp_path) == first
+    assert {"cars/toy:text=a 'b' $c", "--ssim", "--flip"} <= set(again)
+
+
+def test_an_error_picture_that_is_left_from_before_is_told(command, tmp_path):
+    assert command("render", *SMALL, "-o", "a.exr").err == ""
+    done = command("render", *SMALL, "-o", "a.exr", "--no-error")
+    assert done.status == 0
+    assert done.error == "a.error.png is of an earlier rendering: this one has no error (--no-error)"
+    assert (tmp_path / "a.error.png").exists()
+
+
 def test_without_error_there_is_neither_reference_nor_metric(command, tmp_path):
     report = command("render", *SMALL, "--no-error", "--json").report
     assert report["files"] == ["zoneplate-hammersley-4spp.exr", "zoneplate-hammersley-4spp.png"] == names(tmp_path)
@@ -194,7 +228,7 @@ def test_an_absolute_path_is_taken_and_named(command, tmp_path):
 def test_old_files_are_replaced(command, tmp_path):
     command("render", *SMALL, "--output", "a.exr")
     first = contents(tmp_path)
-    command("render", *SMALL, "--output", "a.exr", "--seed", "1", "--sampler", "random")
+    command("render", *SMALL[2:], "--output", "a.exr", "--seed", "1", "--sampler", "random")
     second = contents(tmp_path)
     assert set(first) == set(second)
     assert all(first[name] != second[name] for name in first)
@@ -241,6 +275,46 @@ def test_samples_that_are_not_finite_are_reported_and_turn_the_status(command, p
     assert plain.status == 1
     assert plain.error == done.error
     assert "invalid_pixels  16" in plain.out
+
+
+def test_a_sum_that_overflows_is_no_sample_that_is_not_finite(command, plugins):
+    plugins.offer("toys", "scene", 'SceneSpec("huge", "toy_scene:Huge", "")')
+    plugins.module(
+        "toy_scene",
+        """
+        import numpy as np
+        from samplekit import Scene
+
+        class Huge(Scene):
+            def value(self, points):
+                return np.full(points.shape[1], 1e308)
+        """,
+    )
+    done = command("render", *SMALL, "--scene", "huge", "--no-error")
+    assert done.status == 1
+    assert "not finite though all samples were, in 64 pixels" in done.error
+
+
+def test_what_must_fail_fails_before_a_sample_is_drawn(command, plugins, monkeypatch, tmp_path):
+    monkeypatch.setattr(Estimator, "means", lambda *_: pytest.fail("samples were drawn first"))
+    plugins.offer("toys", "scene", 'SceneSpec("toy", "toy_scene:Toy", "")')
+    plugins.module(
+        "toy_scene",
+        """
+        from samplekit import Scene
+
+        class Toy(Scene):
+            def value(self, points):
+                return points[0]
+
+            def exact(self, x_edges, y_edges):
+                raise ValueError("not today")
+        """,
+    )
+    assert "cannot give its reference: ValueError: not today" in command("render", *SMALL, "--scene", "toy").error
+    small = command("render", *SMALL[:-1], "6x20", "--ssim")
+    assert "ssim needs at least 7 x 7 pixels, the image has 6 x 20" in small.error
+    assert names(tmp_path) == []
 
 
 def test_a_plugin_renders_as_ours_do(command, plugins, tmp_path):
@@ -334,7 +408,7 @@ def test_a_command_of_a_plugin_runs_with_its_status_and_help(command, plugins):
     assert command("juggle").status == 2
     failed = command("juggle", "3", "--fail")
     assert failed.status == 1
-    assert "ValueError: dropped one" in failed.error
+    assert "command juggle of plugin toys (toys-distribution 1.0) failed: ValueError: dropped one" in failed.error
     assert "did you mean juggle" in command("jugle", "3").error
 
 

@@ -1,0 +1,28 @@
+"""Commands in which an option is given once: of two values the last would win, and nobody would be told."""
+
+from __future__ import annotations
+
+from collections import Counter
+from typing import Any
+
+from typer.core import TyperCommand, TyperOption
+
+from samplekit.errors import UsageError
+
+
+class SingleOptionsCommand(TyperCommand):
+    """A command that refuses a second value of an option that takes one."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> Any:
+        """Count what is given, then read it."""
+        if not ctx.resilient_parsing:
+            _, _, order = self.make_parser(ctx).parse_args(args=list(args))
+            given = Counter(
+                parameter.opts[0]
+                for parameter in order
+                if isinstance(parameter, TyperOption) and not (parameter.multiple or parameter.is_flag)
+            )
+            for name, times in given.items():
+                if times > 1:
+                    raise UsageError(f"{name} is given {times} times: expected it once")
+        return super().parse_args(ctx, args)
