@@ -7,7 +7,14 @@ function decoded(id, unpack) {
   return DECODED.get(id);
 }
 
+// The pixels come last in the page: charts are there before them.
+const ALL_READ = new Promise((resolve) => {
+  if (document.readyState === "loading") document.addEventListener("DOMContentLoaded", resolve, { once: true });
+  else resolve();
+});
+
 async function inflated(id) {
+  await ALL_READ;
   const text = atob(document.getElementById(id).textContent.trim());
   const bytes = Uint8Array.from(text, (character) => character.charCodeAt(0));
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
