@@ -83,7 +83,7 @@ def table(cells: Sequence[Cell]) -> Iterator[str]:
             for extreme in dict.fromkeys(cell.extreme for cell in rows):
                 row = [cell for cell in rows if cell.extreme == extreme]
                 beyond = lost.get((name, extreme, sampler))
-                note = f"  precision lost beyond {beyond}" if beyond else ""
+                note = "" if beyond is None else f"  precision lost beyond {beyond}" if beyond else "  precision lost"
                 yield f"  {extreme:<{width}}" + "".join(f"{_words(cell):>18}" for cell in row) + note
             yield ""
     tally = ", ".join(f"{number} {kind}" for kind, number in _tally(cells).items() if number)

@@ -126,10 +126,13 @@ def _cell(
 
 
 def precision_lost_beyond(cells: Sequence[Cell]) -> dict[tuple[str, str, str], int]:
-    """The least count at which rounding exceeds the error of sampling, by name, extreme and sampler."""
-    lost: dict[tuple[str, str, str], int] = {}
+    """The largest count before rounding exceeds the error of sampling, by name, extreme and sampler; 0: none is."""
+    rows: dict[tuple[str, str, str], list[Cell]] = {}
     for cell in cells:
-        if cell.verdict.kind == "precision lost":
-            row = cell.name, cell.extreme, cell.sampler
-            lost[row] = min(cell.count, lost.get(row, cell.count))
-    return lost
+        rows.setdefault((cell.name, cell.extreme, cell.sampler), []).append(cell)
+    beyond = {}
+    for row, of_row in rows.items():
+        lost = [cell.count for cell in of_row if cell.verdict.kind == "precision lost"]
+        if lost:
+            beyond[row] = max((cell.count for cell in of_row if cell.count < min(lost)), default=0)
+    return beyond

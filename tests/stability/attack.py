@@ -124,7 +124,8 @@ def zoneplate(draw):
 
 @st.composite
 def steps(draw, width):
-    angle = draw(st.one_of(st.floats(-360, 360), st.sampled_from([0.0, 45.0, 90.0, 1e-9, 30.0]), logs(-14, 0)))
+    any_angle = st.floats(-360, 360).map(lambda angle: angle if abs(angle) > 1e-20 else 0.0)
+    angle = draw(st.one_of(any_angle, st.sampled_from([0.0, 45.0, 90.0, 1e-9, 30.0]), logs(-14, 0)))
     plain = samplekit.scene("step", angle=angle)._scene
     px, py = draw(coordinate), draw(coordinate)
     offset = plain.cosine * px + plain.sine * py + draw(st.floats(-50.0, 800.0)) * width

@@ -102,7 +102,7 @@ def step(scene, x0, x1, y0, y1):
     if scene.width == 0.0:
         return sheer_step(scene, x0, x1, y0, y1)
     extents = abs(scene.cosine) * (x1 - x0), abs(scene.sine) * (y1 - y0)
-    lost = sum(math.log10(max(1.0, scene.width / extent)) for extent in extents if extent)
+    lost = sum(max(0.0, math.log10(scene.width) - math.log10(extent)) for extent in extents if extent)
     with mpmath.workdps(mp.dps + 2 * int(lost)):
         return smooth_step(scene, *map(mpf, (x0, x1, y0, y1)))
 
