@@ -20,9 +20,10 @@ for name in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
 
 import ducc0  # noqa: E402
 import numpy as np  # noqa: E402
-from samplekit_spectrum.expectation import Source, View, _block, _Work  # noqa: E402
+from samplekit_spectrum.expectation import View, _block, _Work  # noqa: E402
 from samplekit_spectrum.frequencies import Cube  # noqa: E402
 from samplekit_spectrum.moments import Moments  # noqa: E402
+from samplekit_spectrum.sets import Source  # noqa: E402
 from samplekit_spectrum.transform import PRECISION, by_products, few_points, of_pair, slabs  # noqa: E402
 
 import samplekit  # noqa: E402

@@ -6,9 +6,8 @@ depend on threads. An interrupt stops every block after its current transform; w
 
 from __future__ import annotations
 
-import os
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -16,33 +15,22 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit.errors import SamplekitError
+from samplekit.integration.threads import check_threads
 from samplekit.sampling.realizations import Realizations
 from samplekit_spectrum.exponentials import add_sums
 from samplekit_spectrum.frequencies import Cube, Frequencies, Listed
 from samplekit_spectrum.moments import Moments
+from samplekit_spectrum.sets import CHUNK, Sets, Source
 from samplekit_spectrum.transform import LARGEST_WHOLE, Chunks, by_products, few_points, of_pair, of_slab, slabs
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from samplekit.sampling.configured import ConfiguredSampler
-
 Progress = Callable[[int, int], None]
 
 _MOST_BLOCKS = 128
 _LARGEST_BLOCK = 64
-_CHUNK = 2**20
 _BATCH_VALUES = 2**21
-
-
-@dataclass(frozen=True, eq=False)
-class Source:
-    """The point sets: which sampler, how many points, in how many dimensions, from which seed."""
-
-    sampler: ConfiguredSampler
-    count: int
-    dims: int
-    seed: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,7 +89,7 @@ def expectations(
     """
     source.sampler.check(source.count, source.dims)
     blocks = _blocks(first, realizations)
-    workers = min(threads or os.cpu_count() or 1, len(blocks))
+    workers = min(check_threads(threads), len(blocks))
     workers = _affordable(workers, source, views)
     source.sampler.prepare(source.count, source.dims)
     rings = [view.frequencies.rings() for view in views]
@@ -169,7 +157,7 @@ def _affordable(workers: int, source: Source, views: list[View]) -> int:
     kept = 40 * sum(view.frequencies.half for view in views)
     largest = max((v.frequencies.side * v.frequencies.row for v in views if isinstance(v.frequencies, Cube)), default=0)
     transform = 80 * min(largest, LARGEST_WHOLE)
-    points = 8 * source.dims * 2 * (min(source.count, _CHUNK) if source.sampler.streams else source.count) * 4
+    points = 8 * source.dims * 2 * (min(source.count, CHUNK) if source.sampler.streams else source.count) * 4
     available = 0.8 * psutil.virtual_memory().available
     each = kept + transform + points
     if kept + each > available:
@@ -192,7 +180,7 @@ def _block(
         if work.stop.is_set():
             break
         members = min(batch, stop - begin)
-        sets = _Sets(source, Realizations.of_trials(begin, begin + members, source.seed))
+        sets = Sets(source, Realizations.of_trials(begin, begin + members, source.seed))
         for view, moments in zip(views, block, strict=True):
             _add(view, moments, sets, members)
         work.tick(members)
@@ -204,42 +192,7 @@ def _widest(views: list[View]) -> int:
     return int(2**22 // max(min(view.frequencies.half, 2**22) for view in views))
 
 
-class _Sets:
-    """The points of some realisations, in chunks of about a million where the sampler can make a part of a set."""
-
-    def __init__(self, source: Source, realizations: Realizations) -> None:
-        self.count = source.count
-        self._source, self._realizations = source, realizations
-        self._whole: NDArray[np.float64] | None = None
-
-    def of(self, axes: tuple[int, ...], member: int | None = None) -> Chunks:
-        """The chunks on some axes, as often as they are asked for."""
-        return lambda: self._chunks(axes, member)
-
-    def _chunks(self, axes: tuple[int, ...], member: int | None = None) -> Iterator[NDArray[np.float64]]:
-        """Coordinates on ``axes``, last axis first: float64[k, D, n]; of one member alone, if it is given."""
-        rows = slice(None) if member is None else slice(member, member + 1)
-        order = list(reversed(axes))
-        if self._whole is not None:
-            yield self._whole[rows][:, order]
-            return
-        source = self._source
-        realizations = self._realizations[rows]
-        if source.count <= _CHUNK or not source.sampler.streams:
-            self._whole = self._filled(self._realizations, 0, source.count)
-            yield self._whole[rows][:, order]
-            return
-        for start in range(0, source.count, _CHUNK):
-            length = min(_CHUNK, source.count - start)
-            yield self._filled(realizations, start, length)[:, order]
-
-    def _filled(self, realizations: Realizations, start: int, length: int) -> NDArray[np.float64]:
-        points = np.empty((len(realizations), self._source.dims, length))
-        self._source.sampler.fill(points, realizations, self._source.count, start)
-        return points
-
-
-def _add(view: View, moments: Moments, sets: _Sets, members: int) -> None:
+def _add(view: View, moments: Moments, sets: Sets, members: int) -> None:
     cube, count = view.frequencies, sets.count
     if not isinstance(cube, Cube):
         moments.add([(0, _listed(cube, sets.of(view.axes), members))], members, count, exact_dc=False)

@@ -6,11 +6,19 @@ of an estimate the sum of |f(m)|^2 E|S(m)|^2 (Pilleboue et al. 2015).
 
 from __future__ import annotations
 
+import threading
 from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
 
 from samplekit.builtin.randomizers.shift import Shift
 from samplekit.sampling.configured import ConfiguredSampler
 from samplekit.sampling.randomizer import RandomizedSampler
+from samplekit.sampling.realizations import Realizations
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 
 class Homogenized(ConfiguredSampler):
@@ -30,11 +38,44 @@ class Homogenized(ConfiguredSampler):
         return self if inner is self._inner else Homogenized(inner)
 
 
+class _Reshifted(Homogenized):
+    """Each set under several random shifts: realisation r is set r // shifts under the shift r."""
+
+    def __init__(self, sampler: ConfiguredSampler, shifts: int) -> None:
+        super().__init__(sampler)
+        self._shifts = shifts
+        self._kept = threading.local()
+
+    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+        """Write points of the sets; see :meth:`samplekit.Sampler.fill`."""
+        numbers = realizations.x // self._shifts
+        if start or out.shape[2] != count:
+            raise ValueError("sets that are shifted anew are taken whole")
+        first = int(numbers[0])
+        sets = self._sets(first, int(numbers[-1]) + 1, realizations.seed, out.shape[1], count)
+        out[:] = sets[numbers - first]
+        Shift().apply(out, realizations, ())
+
+    def _sets(self, first: int, stop: int, seed: int, dims: int, count: int) -> NDArray[np.float64]:
+        """Sets first to stop; the last is kept, since the next ones asked for often begin with it."""
+        last, seed_of_last, kept = getattr(self._kept, "last", (-1, -1, np.empty(0)))
+        have = int(last == first and seed_of_last == seed and kept.shape == (dims, count))
+        sets = np.empty((stop - first, dims, count))
+        if have:
+            sets[0] = kept
+        if stop - first > have:
+            self._inner.fill(sets[have:], Realizations.of_trials(first + have, stop, seed), count, 0)
+        self._kept.last = (stop - 1, seed, sets[-1].copy())
+        return sets
+
+
 def is_homogeneous(sampler: ConfiguredSampler) -> bool:
     """Whether every shift of the sampler's sets is as likely: independent points, and what has just been shifted."""
     return sampler.text.endswith("+shift") or (sampler.text == "random" and sampler.plugin.name == "samplekit")
 
 
-def homogenized(sampler: ConfiguredSampler) -> ConfiguredSampler:
-    """The sampler followed by a random shift, unless that changes nothing."""
+def homogenized(sampler: ConfiguredSampler, shifts: int = 1) -> ConfiguredSampler:
+    """The sampler followed by a random shift, unless that changes nothing; by so many shifts of each set in a row."""
+    if shifts > 1:
+        return _Reshifted(sampler, shifts)
     return sampler if is_homogeneous(sampler) else Homogenized(sampler)

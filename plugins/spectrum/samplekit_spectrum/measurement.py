@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -13,6 +12,7 @@ import numpy as np
 
 from samplekit.errors import SamplekitError
 from samplekit.integration.estimator import UNIT_SQUARE, Estimator, Seconds
+from samplekit.integration.threads import check_threads
 from samplekit.sampling.realizations import Realizations
 
 if TYPE_CHECKING:
@@ -51,22 +51,25 @@ def measure(
     *,
     trials: int | None,
     seed: int,
+    shifts: int = 1,
     threads: int | None = None,
     progress: Progress = lambda _, __: None,
 ) -> Measurement:
     """Estimate the integral ``trials`` times with ``count`` samples each; ``exact`` is the integral.
 
     ``trials`` None: 40000, and more where estimates have heavy tails, so that the variance is known within 0.8 %.
+    ``shifts``: so many trials in a row are of one set, taken whole; a divisor of ``trials``.
     """
     sampler.check(count, scene.dims)
     sampler.prepare(count, scene.dims)
     wanted = TRIALS if trials is None else trials
     estimates = _estimates(scene, sampler, count, range(wanted), seed, threads, progress)
-    found = summarize(estimates, exact)
+    found = summarize(estimates, exact, shifts)
     if trials is None and found.standard_error > PRECISION * found.variance > 0.0:
         more = min(math.ceil(1.1 * wanted * (found.standard_error / (PRECISION * found.variance)) ** 2), _MOST * wanted)
-        rest = _estimates(scene, sampler, count, range(wanted, max(more, wanted + 1)), seed, threads, progress)
-        found = summarize(np.concatenate([estimates, rest]), exact)
+        more = shifts * math.ceil(max(more, wanted + 1) / shifts)
+        rest = _estimates(scene, sampler, count, range(wanted, more), seed, threads, progress)
+        found = summarize(np.concatenate([estimates, rest]), exact, shifts)
     return found
 
 
@@ -91,7 +94,7 @@ def _estimates(
         return stop - start
 
     done = 0
-    with ThreadPoolExecutor(min(threads or os.cpu_count() or 1, len(starts))) as pool:
+    with ThreadPoolExecutor(min(check_threads(threads), len(starts))) as pool:
         try:
             for finished in pool.map(block, starts):
                 done += finished
@@ -104,12 +107,15 @@ def _estimates(
     return estimates
 
 
-def summarize(estimates: NDArray[np.float64], exact: float) -> Measurement:
-    """Variance and its standard error from the fourth moment, which holds for any distribution (Cramer 1946, 27.4)."""
+def summarize(estimates: NDArray[np.float64], exact: float, shifts: int = 1) -> Measurement:
+    """Variance and its standard error, which holds for any distribution: that of a mean of squared deviations.
+
+    Where ``shifts`` estimates in a row are of one set, they depend on each other, and its mean counts once.
+    """
     trials = estimates.size
     mean = float(estimates.mean())
-    deviations = estimates - mean
-    variance = float((deviations**2).sum() / (trials - 1)) if trials > 1 else float("nan")
-    fourth = float((deviations**4).mean())
-    error = math.sqrt(max(fourth - variance**2 * (trials - 3) / (trials - 1), 0.0) / trials) if trials > 3 else math.nan
+    squares = (estimates - mean) ** 2
+    variance = float(squares.sum() / (trials - 1)) if trials > 1 else math.nan
+    of_sets = squares.reshape(-1, shifts).mean(axis=1)
+    error = float(of_sets.std(ddof=1)) / math.sqrt(of_sets.size) if of_sets.size > 1 else math.nan
     return Measurement(trials, variance, error, mean - exact, float(((estimates - exact) ** 2).mean()))

@@ -1,4 +1,7 @@
-"""Where the spectra are multiplied: a square of frequencies about DC, and the axes far beyond it.
+"""Where the spectra are multiplied: a square of frequencies about DC in shells, and the axes far beyond it.
+
+Integrands have most of their energy at the lowest frequencies: only there many realisations are needed, and there they
+are cheap.
 
 Latin hypercubes and nets have their dark axes out to frequency N, and integrands that jump at the edges of the unit
 square, or along them, have all their slow decay there: the axes cost one dimension and are taken further.
@@ -8,6 +11,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,6 +26,8 @@ if TYPE_CHECKING:
 
 LARGEST_SQUARE, LARGEST_SQUARE_OF_FIXED = 512, 1024
 LARGEST_AXIS = 2**16
+SHELLS = (8, 32, 128)
+"""Where one shell of the square ends and the next begins."""
 _ROWS = 2**21
 
 
@@ -55,15 +61,16 @@ class Region:
         return float(self.weights.sum())
 
 
-def square(integrand: Integrand, reach: int) -> Region:
-    """All frequencies with |m|_inf <= reach."""
+def square(integrand: Integrand, inner: int, reach: int) -> Region:
+    """All frequencies with inner < |m|_inf <= reach."""
     cube = Cube(2, reach)
     weights = np.zeros(cube.half)
     for start in range(1, cube.half, _ROWS):
         stop = min(start + _ROWS, cube.half)
         vectors = cube.vectors(start, stop)
-        weights[start:stop] = 2.0 * integrand.power(vectors[:, 0], vectors[:, 1])
-    return Region(View((0, 1), cube, weights), weights, 0)
+        powers = 2.0 * integrand.power(vectors[:, 0], vectors[:, 1])
+        weights[start:stop] = np.where(np.abs(vectors).max(axis=1) > inner, powers, 0.0)
+    return Region(View((0, 1), cube, weights), weights, inner)
 
 
 def axis(integrand: Integrand, dimension: int, inner: int, reach: int) -> Region:
@@ -76,11 +83,14 @@ def axis(integrand: Integrand, dimension: int, inner: int, reach: int) -> Region
     return Region(View((dimension,), cube, weights), weights, inner)
 
 
-def regions(integrand: Integrand, reach: int, axis_reach: int) -> list[Region]:
-    """The square and both axes, without those where the integrand has nothing."""
+def regions(integrand: Integrand, reach: int, axis_reach: int, *, in_shells: bool) -> list[Region]:
+    """The square, whole or in shells, and both axes, without those where the integrand has nothing."""
     most = integrand.reach
     reach, axis_reach = (min(value, most) if most else value for value in (reach, axis_reach))
-    found = [] if integrand.axes_only else [square(integrand, reach)]
+    found = []
+    if not integrand.axes_only:
+        ends = [0, *(end for end in SHELLS if in_shells and end < reach), reach]
+        found = [square(integrand, *shell) for shell in pairwise(ends)]
     inner = 0 if integrand.axes_only else reach
     if axis_reach > inner:
         found += [axis(integrand, dimension, inner, axis_reach) for dimension in (0, 1)]
@@ -88,9 +98,9 @@ def regions(integrand: Integrand, reach: int, axis_reach: int) -> list[Region]:
 
 
 def reaches(count: int, *, fixed: bool) -> tuple[int, int]:
-    """How far the square and the axes go: 4 sqrt N, where most spectra are flat, and 16 N, where dark axes end."""
+    """How far the square and the axes go: 16 sqrt N, most spectra being flat from a quarter of it on; 16 N for axes."""
     most = LARGEST_SQUARE_OF_FIXED if fixed else LARGEST_SQUARE
-    reach = most if fixed else min(max(2 ** math.ceil(math.log2(4.0 * math.sqrt(count))), 128), most)
+    reach = most if fixed else min(max(2 ** math.ceil(math.log2(16.0 * math.sqrt(count))), 128), most)
     return reach, min(max(16 * count, 2**12), LARGEST_AXIS)
 
 

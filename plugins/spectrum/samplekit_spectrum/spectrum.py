@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -13,10 +12,12 @@ from samplekit.errors import UsageError
 from samplekit.sampling.configured import ConfiguredSampler, configured_sampler
 from samplekit.sampling.realizations import check_seed
 from samplekit_spectrum.bias import Bias, find_bias
-from samplekit_spectrum.expectation import Source, View, expectations
-from samplekit_spectrum.frequencies import Cube, Frequencies, Listed
+from samplekit_spectrum.expectation import View, expectations
+from samplekit_spectrum.frequencies import Cube, Frequencies
 from samplekit_spectrum.homogenized import homogenized
 from samplekit_spectrum.radial import Radial, radial
+from samplekit_spectrum.request import axes_of, check_integer, frequencies_of
+from samplekit_spectrum.sets import Source
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -25,8 +26,6 @@ if TYPE_CHECKING:
 
     from samplekit_spectrum.moments import Moments
 
-LARGEST_REACH = 2**20
-LARGEST_FREQUENCY = 2.0**40
 REALIZATIONS = 100
 
 
@@ -200,11 +199,11 @@ def powers(
     chosen = configured_sampler(sampler) if isinstance(sampler, str) else sampler
     source_sampler = homogenized(chosen) if homogenize else chosen
     source_sampler = source_sampler.fresh()
-    axes, dims = _axes(projects, dims)
+    axes, dims = axes_of(projects, dims)
     source_sampler.check(count, dims)
     check_seed(seed)
-    _check_positive(realizations, "realizations", 2**40)
-    where = _frequencies(count, len(axes[0]), max_frequency, step, frequencies)
+    check_integer(realizations, "realizations", 2**40)
+    where = frequencies_of(count, len(axes[0]), max_frequency, step, frequencies)
     randomized = source_sampler.spec.randomized
     wanted = realizations if randomized else 1
     found = expectations(
@@ -230,60 +229,3 @@ def powers(
         )
         for pair, moments in zip(axes, found, strict=True)
     ]
-
-
-def default_reach(count: int, dims: int) -> int:
-    """The reach that shows a spectrum up to where it is flat: about four times the mean frequency of the points."""
-    most = {1: 4096, 2: 512, 3: 32}[dims]
-    least = {1: 32, 2: 32, 3: 8}[dims]
-    wanted = 4.0 * count ** (1.0 / dims)
-    return int(min(max(2 ** math.ceil(math.log2(max(wanted, 1.0))), least), most))
-
-
-def _check_positive(value: object, what: str, most: int) -> None:
-    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not 1 <= value <= most:
-        raise UsageError(f"{what} {value}: expected an integer from 1 to {most}")
-
-
-def _axes(projects: Sequence[Sequence[int] | None], dims: int | None) -> tuple[list[tuple[int, ...]], int]:
-    if dims is not None:
-        _check_positive(dims, "dims", 2**20)
-    least = max((max(project) + 1 for project in projects if project), default=2)
-    size = int(dims) if dims is not None else least
-    axes = []
-    for project in projects:
-        if project is None:
-            if size > 3:
-                raise UsageError(
-                    f"a spectrum in {size} dimensions cannot be taken: choose two or three of them to project on"
-                )
-            axes.append(tuple(range(size)))
-            continue
-        pair = tuple(int(axis) for axis in project)
-        if not 1 <= len(pair) <= 3 or len(set(pair)) != len(pair) or min(pair) < 0:
-            raise UsageError(
-                f"projection {','.join(map(str, pair))}: expected up to three different dimensions, from 0"
-            )
-        if max(pair) >= size:
-            raise UsageError(f"projection {','.join(map(str, pair))}: the sets have {size} dimensions, 0 to {size - 1}")
-        axes.append(pair)
-    return axes, size
-
-
-def _frequencies(
-    count: int, dims: int, max_frequency: int | None, step: float, listed: ArrayLike | None
-) -> Frequencies:
-    if listed is not None:
-        if max_frequency is not None or step != 1.0:
-            raise UsageError("listed frequencies and a largest frequency or a step exclude each other")
-        vectors = np.atleast_2d(np.asarray(listed, np.float64))
-        if vectors.ndim != 2 or vectors.shape[1] != dims or vectors.size == 0:
-            raise UsageError(f"frequencies of shape {list(vectors.shape)}: expected [K, {dims}]")
-        if not np.all(np.abs(vectors) <= LARGEST_FREQUENCY):
-            raise UsageError("a frequency is not finite, or larger than 2^40")
-        return Listed(np.ascontiguousarray(vectors))
-    if not (isinstance(step, (int, float)) and 0.0 < step <= LARGEST_FREQUENCY):
-        raise UsageError(f"step {step}: expected a number above 0, up to 2^40")
-    reach = default_reach(count, dims) if max_frequency is None else max_frequency
-    _check_positive(reach, "max-frequency", LARGEST_REACH)
-    return Cube(dims, int(reach), float(step))

@@ -69,10 +69,22 @@ def slabs(cube: Cube) -> list[Slab]:
 
 def few_points(cube: Cube, count: int) -> bool:
     """Whether matrix products are faster than the non-uniform FFT, for each set of ``count`` points."""
+    return _by_products_seconds(cube, count) < _nufft_seconds(cube, count)
+
+
+def seconds(cube: Cube, count: int) -> float:
+    """About how long a transform takes; only ratios matter."""
+    return min(_by_products_seconds(cube, count), _nufft_seconds(cube, count))
+
+
+def _by_products_seconds(cube: Cube, count: int) -> float:
     dims = cube.dims
-    products = cube.half * count * _PRODUCT_TERM[dims] + (cube.reach + 1) * dims * count * _EXPONENTIAL
-    nufft = _NUFFT_CALL[dims] + cube.side * cube.row * _NUFFT_FREQUENCY[dims] + count * _NUFFT_POINT[dims]
-    return products < nufft
+    return cube.half * count * _PRODUCT_TERM[dims] + (cube.reach + 1) * dims * count * _EXPONENTIAL
+
+
+def _nufft_seconds(cube: Cube, count: int) -> float:
+    dims = cube.dims
+    return _NUFFT_CALL[dims] + cube.side * cube.row * _NUFFT_FREQUENCY[dims] + count * _NUFFT_POINT[dims]
 
 
 def of_pair(chunks: Chunks, cube: Cube) -> NDArray[np.complex128]:

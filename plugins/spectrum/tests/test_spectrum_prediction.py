@@ -8,9 +8,13 @@ import math
 import numpy as np
 import pytest
 from samplekit_spectrum import predict
+from samplekit_spectrum.homogenized import homogenized
 from samplekit_spectrum.measurement import summarize
+from scipy.stats import chi2
 
+import samplekit
 from samplekit.errors import UsageError
+from samplekit.sampling.realizations import Realizations
 
 
 @pytest.mark.parametrize("scene", ["disk", "gaussian", "step"])
@@ -22,6 +26,42 @@ def test_the_ratio_is_1_within_its_interval(sampler, scene):
     row = predict(sampler, scene, 64, trials=6000, realizations=600, native=False, seed=1)
     assert row.verdict == "agrees"
     assert 0.85 < row.ratio_low <= 1.0 <= row.ratio_high < 1.15
+
+
+@pytest.mark.parametrize(("sampler", "count"), [("poisson-disk", 100), ("lloyd", 64), ("ccvt", 64)])
+def test_blue_noise_is_predicted_from_fresh_sets(sampler, count):
+    pytest.importorskip("samplekit_bluenoise")
+    row = predict(sampler, "disk", count, trials=2000, realizations=64, seed=3)
+    assert row.verdict.startswith("agrees")
+    assert 0.8 < row.ratio_low <= 1.0 <= row.ratio_high < 1.25
+    # 40 shifts of each of 50 sets; natively a set is an estimate.
+    assert (row.measured.trials, row.native.trials) == (2000, 50)
+
+
+def test_a_set_is_shifted_several_times_and_no_tile_changes_that():
+    inner = samplekit.sampler("jittered")
+    shifted = homogenized(inner, 3)
+    whole = np.empty((7, 2, 16))
+    shifted.fill(whole, Realizations.of_trials(0, 7, 5), 16, 0)
+    sets = np.empty((3, 2, 16))
+    inner.fill(sets, Realizations.of_trials(0, 3, 5), 16, 0)
+    for number, points in enumerate(whole):
+        shift = (points - sets[number // 3]) % 1.0
+        np.testing.assert_allclose(shift, np.repeat(shift[:, :1], 16, axis=1), atol=1e-15)
+    assert np.unique(np.round((whole - sets[np.arange(7) // 3]) % 1.0, 9)).size == 14
+    for first, stop in ((0, 2), (2, 3), (3, 7), (5, 6)):
+        part = np.empty((stop - first, 2, 16))
+        shifted.fill(part, Realizations.of_trials(first, stop, 5), 16, 0)
+        np.testing.assert_array_equal(part, whole[first:stop])
+
+
+def test_the_standard_errors_are_those_of_other_seeds():
+    """Chi squared of 8 seeds, a false alarm of 1e-3 to either side, with strata of different numbers of sets."""
+    exact = 0.09 * math.pi * (1.0 - 0.09 * math.pi) / 16
+    rows = [predict("random", "disk", 16, trials=4, seed=seed).predicted for seed in range(8)]
+    scores = [(row.variance - exact) / row.standard_error for row in rows]
+    assert all(row.standard_error < 0.005 * row.variance for row in rows)
+    assert chi2.ppf(1e-3, 8) < np.square(scores).sum() < chi2.isf(1e-3, 8)
 
 
 @pytest.mark.parametrize("scene", ["disk", "bilinear", "checker:cells=3", "step:angle=30"])
@@ -42,7 +82,7 @@ def test_the_interval_is_narrower_than_5_percent_by_default():
 
 def test_jitter_meets_its_closed_form():
     """With N E|S|^2 = 1 - sinc^2 sinc^2 the sum is known."""
-    row = predict("jittered", "disk", 256, trials=100, realizations=400, native=False)
+    row = predict("jittered", "disk", 256, trials=100, realizations=200, max_frequency=128, native=False)
     from scipy.special import j1
 
     m = np.arange(-1024, 1025)
@@ -111,3 +151,6 @@ def test_the_standard_error_of_a_variance():
     coin = summarize(np.tile([0.0, 1.0], 5000), 0.5)
     assert coin.standard_error < 1e-4 * coin.variance
     assert coin.bias == 0.0
+    # Four estimates of a set each: what they share counts once.
+    of_sets = np.repeat(rng.normal(size=5000), 4)
+    assert summarize(of_sets, 0.0, 4).standard_error == pytest.approx(math.sqrt(2 / 5000), rel=0.1)

@@ -76,7 +76,7 @@ def test_a_step_is_a_list_of_its_multiples(step):
 def test_slabs_and_chunks_change_nothing(dims, count, monkeypatch):
     whole = power("random", count, realizations=3, max_frequency=9, dims=dims)
     monkeypatch.setattr(transform, "_SLAB", 40)
-    monkeypatch.setattr("samplekit_spectrum.expectation._CHUNK", 100)
+    monkeypatch.setattr("samplekit_spectrum.sets.CHUNK", 100)
     monkeypatch.setattr("samplekit_spectrum.expectation.LARGEST_WHOLE", 1)
     parts = power("random", count, realizations=3, max_frequency=9, dims=dims)
     np.testing.assert_allclose(parts.mean, whole.mean, atol=1e-12)

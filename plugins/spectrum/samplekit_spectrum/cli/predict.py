@@ -44,7 +44,7 @@ def predict(
         typer.Option("--realizations", "-r", metavar="R", help="Sets in the expected spectrum; by default enough."),
     ] = "",
     max_frequency: Annotated[
-        str, typer.Option("--max-frequency", "-f", metavar="F", help="Largest frequency; by default about 4 sqrt N.")
+        str, typer.Option("--max-frequency", "-f", metavar="F", help="Largest frequency; by default about 16 sqrt N.")
     ] = "",
     seed: SeedOption = "0",
     threads: Annotated[

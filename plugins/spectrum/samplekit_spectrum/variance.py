@@ -1,0 +1,188 @@
+"""The variance of an estimate from the spectra of the sampler and of the integrand.
+
+For sets of which every toroidal shift is as likely, and an integrand f repeated in all directions (Parseval on the
+torus; Pilleboue et al. 2015 in its exact form, without isotropy):
+
+    Var = sum over integer m, not 0, of |f(m)|^2 E|S(m)|^2.
+
+What lies beyond the largest frequency is known as far as f goes: its energy there is the whole energy less what was
+summed.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from samplekit.sampling.configured import configured_sampler
+from samplekit_spectrum.allocation import PILOT, Stratum, mean_and_error, refine
+from samplekit_spectrum.dual_lattice import variance_on_grid
+from samplekit_spectrum.expectation import expectations
+from samplekit_spectrum.regions import axis, outer_power, reaches, regions, square
+
+if TYPE_CHECKING:
+    from samplekit.sampling.configured import ConfiguredSampler
+    from samplekit_spectrum.integrands.integrand import Integrand
+    from samplekit_spectrum.moments import Moments
+    from samplekit_spectrum.regions import Region
+    from samplekit_spectrum.sets import Source
+
+Progress = Callable[[int, int], None]
+
+_NEGLIGIBLE = 1e-3
+_FIRST, _APART = 2**31, 2**26
+"""Number of the first realisation whose spectrum is taken, none that is measured with; and of the next stratum's."""
+
+
+@dataclass(frozen=True)
+class Predicted:
+    """The variance from the spectra.
+
+    Attributes
+    ----------
+    variance, standard_error
+        The sum with the tail's estimate, and its error from the number of realisations.
+    tail, tail_bound
+        What lies beyond the largest frequency, as estimated, and at most.
+    bound
+        How the bound is known: ``"proven"``, or ``"observed"`` (no power beyond is larger than the largest within
+        reach), or ``"extrapolated"``.
+    max_frequency, max_axis_frequency
+        How far the square and the axes were summed.
+    realizations
+        Sets in the expected spectrum, at the frequencies that have most; 1 where all have the same power.
+    """
+
+    variance: float
+    standard_error: float
+    tail: float
+    tail_bound: float
+    bound: str
+    max_frequency: int
+    max_axis_frequency: int
+    realizations: int
+
+
+def has_fixed_power(sampler: ConfiguredSampler) -> bool:
+    """Whether all its sets have the same |S|: it is not random, but for a shift."""
+    if not sampler.spec.randomized:
+        return True
+    return (
+        sampler.text.endswith("+shift") and not configured_sampler(sampler.text.removesuffix("+shift")).spec.randomized
+    )
+
+
+def predicted_variance(
+    source: Source,
+    integrand: Integrand,
+    *,
+    realizations: int | None,
+    max_frequency: int | None,
+    threads: int | None,
+    progress: Progress,
+) -> Predicted:
+    """Sum the product of both spectra, with as many realisations as it takes.
+
+    Parameters
+    ----------
+    source, integrand
+        The sets, and what is integrated.
+    realizations, max_frequency, threads, progress
+        As in :func:`samplekit_spectrum.prediction.predict`.
+    """
+    fixed = has_fixed_power(source.sampler)
+    if source.sampler.spec.name == "regular" and source.sampler.plugin.name == "samplekit" and fixed:
+        total, outer = variance_on_grid(integrand, source.count)
+        return Predicted(total + outer, 0.0, outer, 2.0 * outer, "extrapolated", 0, 0, 1)
+    reach, axis_reach = reaches(source.count, fixed=fixed)
+    chosen = regions(integrand, max_frequency or reach, axis_reach, in_shells=not fixed)
+    if not chosen:
+        return Predicted(0.0, 0.0, 0.0, 0.0, "proven", 0, 0, 1)
+
+    def spectra(stratum: Stratum, number: int) -> list[Moments]:
+        views = [region.view for region in stratum.regions]
+        first = _FIRST + _APART * stratum.number + stratum.realizations
+        return expectations(source, views, number, first=first, threads=threads, progress=progress)
+
+    def begun(chosen: list[Region]) -> list[Stratum]:
+        shells = [[region] for region in chosen if region.cube.dims == 2]
+        axes = [region for region in chosen if region.cube.dims == 1]
+        strata = [Stratum(number, group) for number, group in enumerate([*shells, axes]) if group]
+        for stratum in strata:
+            stratum.extend(spectra, 1 if fixed else PILOT if realizations is None else min(PILOT, realizations))
+        return strata
+
+    strata = begun(chosen)
+    if not fixed:
+        if max_frequency is None:
+            trimmed = _trimmed(integrand, strata)
+            strata = strata if trimmed == chosen else begun(trimmed)
+        refine(strata, spectra, source, realizations)
+    return _summed(source, integrand, strata, fixed=fixed)
+
+
+def _trimmed(integrand: Integrand, strata: list[Stratum]) -> list[Region]:
+    """The regions without what adds less than a thousandth, so that smooth integrands need few frequencies."""
+    total = sum(float(stratum.totals.mean()) for stratum in strata)
+    regions_ = [region for stratum in strata for region in stratum.regions]
+    means = [moments.mean for stratum in strata for moments in stratum.moments]
+    kept = []
+    for region, mean in zip(regions_, means, strict=True):
+        cube = region.cube
+        terms = region.weights * mean
+        if float(terms.sum()) < _NEGLIGIBLE * total:
+            continue
+        size = np.abs(cube.vectors(0, cube.half)).max(axis=1)
+        by_size = np.bincount(size, terms)
+        beyond = by_size.sum() - np.cumsum(by_size)
+        needed = int(np.argmax(beyond <= _NEGLIGIBLE * total))
+        needed = max(2 ** math.ceil(math.log2(max(needed, 8))), region.inner + 1)
+        if needed >= cube.reach:
+            kept.append(region)
+        elif cube.dims == 2:
+            kept.append(square(integrand, region.inner, needed))
+        else:
+            kept.append(axis(integrand, region.view.axes[0], region.inner, needed))
+    return kept or regions_
+
+
+def _summed(source: Source, integrand: Integrand, strata: list[Stratum], *, fixed: bool) -> Predicted:
+    mean, error = mean_and_error(strata)
+    pairs = [pair for stratum in strata for pair in zip(stratum.regions, stratum.moments, strict=True)]
+    missing = max(integrand.variance - sum(region.energy for region, _ in pairs), 0.0)
+    # Rounding of the energies is no tail.
+    missing = missing if missing > 1e-12 * integrand.energy else 0.0
+    level, largest, bound = _beyond(source, pairs, fixed=fixed)
+    squares = [region.cube.reach for region, _ in pairs if region.cube.dims == 2]
+    axes = [region.cube.reach for region, _ in pairs if region.cube.dims == 1]
+    tail = missing * level
+    return Predicted(
+        mean + tail, error, tail, missing * largest, bound, max(squares, default=0),
+        max(axes, default=max(squares, default=0)), max(stratum.realizations for stratum in strata),
+    )  # fmt: skip
+
+
+def _beyond(source: Source, pairs: list[tuple[Region, Moments]], *, fixed: bool) -> tuple[float, float, str]:
+    """The power beyond what was summed: about, and at most, and how that is known."""
+    white = 1.0 / source.count
+    if _at_most_white(source.sampler):
+        return white, white, "proven"
+    arms = any(region.cube.dims == 1 for region, _ in pairs)
+    squares = [pair for pair in pairs if pair[0].cube.dims == 2]
+    # Of the square's shells the last alone has frequencies like those beyond.
+    last = squares[-1:] + [pair for pair in pairs if pair[0].cube.dims == 1]
+    outer = [outer_power(region, moments.mean, off_axes=arms) for region, moments in last]
+    # The square comes first: beyond it is most of what is missing.
+    level = next((power for power, _ in outer if math.isfinite(power)), white)
+    # The power of a net or lattice returns to 1.
+    return (level, 1.0, "proven") if fixed else (level, max(power for _, power in outer), "observed")
+
+
+def _at_most_white(sampler: ConfiguredSampler) -> bool:
+    """Whether N E|S(m)|^2 <= 1 is known at every frequency: independent points, and one in each cell of a grid."""
+    plain = sampler.text.removesuffix("+shift")
+    return sampler.plugin.name == "samplekit" and plain in ("random", "jittered")
