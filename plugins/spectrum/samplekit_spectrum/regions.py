@@ -84,17 +84,20 @@ def axis(integrand: Integrand, dimension: int, inner: int, reach: int) -> Region
 
 
 def regions(integrand: Integrand, reach: int, axis_reach: int, *, in_shells: bool) -> list[Region]:
-    """The square, whole or in shells, and both axes, without those where the integrand has nothing."""
+    """The square and both axes, whole or in shells, without those where the integrand has nothing."""
     most = integrand.reach
     reach, axis_reach = (min(value, most) if most else value for value in (reach, axis_reach))
-    found = []
-    if not integrand.axes_only:
-        ends = [0, *(end for end in SHELLS if in_shells and end < reach), reach]
-        found = [square(integrand, *shell) for shell in pairwise(ends)]
+    shells = SHELLS if in_shells else ()
     inner = 0 if integrand.axes_only else reach
-    if axis_reach > inner:
-        found += [axis(integrand, dimension, inner, axis_reach) for dimension in (0, 1)]
+    found = [square(integrand, *shell) for shell in _shells(0, reach, shells)] if not integrand.axes_only else []
+    for shell in _shells(inner, axis_reach, shells):
+        found += [axis(integrand, dimension, *shell) for dimension in (0, 1)]
     return [region for region in found if region.energy > 1e-14 * integrand.variance]
+
+
+def _shells(inner: int, outer: int, ends: tuple[int, ...]) -> list[tuple[int, int]]:
+    """What lies between ``inner`` and ``outer``, divided at ``ends``."""
+    return list(pairwise([inner, *(end for end in ends if inner < end < outer), outer])) if inner < outer else []
 
 
 def reaches(count: int, *, fixed: bool) -> tuple[int, int]:

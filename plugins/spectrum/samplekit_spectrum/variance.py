@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import groupby
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -109,9 +110,9 @@ def predicted_variance(
         return expectations(source, views, number, first=first, threads=threads, progress=progress)
 
     def begun(chosen: list[Region]) -> list[Stratum]:
-        shells = [[region] for region in chosen if region.cube.dims == 2]
-        axes = [region for region in chosen if region.cube.dims == 1]
-        strata = [Stratum(number, group) for number, group in enumerate([*shells, axes]) if group]
+        # Both axes have a shell in common: they cost little beside the sets.
+        shells = [list(shell) for _, shell in groupby(chosen, lambda region: (region.cube.dims, region.inner))]
+        strata = [Stratum(number, shell) for number, shell in enumerate(shells)]
         for stratum in strata:
             stratum.extend(spectra, 1 if fixed else PILOT if realizations is None else min(PILOT, realizations))
         return strata
@@ -172,9 +173,8 @@ def _beyond(source: Source, pairs: list[tuple[Region, Moments]], *, fixed: bool)
     if _at_most_white(source.sampler):
         return white, white, "proven"
     arms = any(region.cube.dims == 1 for region, _ in pairs)
-    squares = [pair for pair in pairs if pair[0].cube.dims == 2]
-    # Of the square's shells the last alone has frequencies like those beyond.
-    last = squares[-1:] + [pair for pair in pairs if pair[0].cube.dims == 1]
+    # Of shells the last alone has frequencies like those beyond.
+    last = {region.view.axes: (region, moments) for region, moments in pairs}.values()
     outer = [outer_power(region, moments.mean, off_axes=arms) for region, moments in last]
     # The square comes first: beyond it is most of what is missing.
     level = next((power for power, _ in outer if math.isfinite(power)), white)
