@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 MOST_SAMPLES = 2**48
 """Samples of one rendering: weeks of work; a larger request is a slip of the keyboard."""
 _BYTES_PER_PIXEL = 120
-"""Measured on images of 2048 to 8192 pixels a side, with their reference, error, metrics and files."""
+"""110 to 114 were measured on images of 2048 and 4096 pixels a side: reference, error, metrics and files included."""
 
 
 @dataclass(frozen=True)
