@@ -151,11 +151,10 @@ def _write(results: Results, request: Request, subjects: Subjects, folder: Path,
 
 
 def _report(results: Results, folder: Path | None, as_json: bool) -> None:
-    from samplekit.cli.comparison import lines
+    from samplekit.cli.comparison import left_out_lines, lines
 
-    for left_out in results.left_out:
-        count = "" if left_out.count is None else f", {left_out.count} samples"
-        typer.echo(f"samplekit: left out: {left_out.scene}, {left_out.sampler}{count}: {left_out.reason}", err=True)
+    for line in left_out_lines(results):
+        typer.echo(f"samplekit: {line}", err=True)
     if as_json:
         import json
 

@@ -23,6 +23,17 @@ def lines(results: Results) -> list[str]:
     return written
 
 
+def left_out_lines(results: Results) -> list[str]:
+    """What there is no row for, a line for each reason."""
+    counts: dict[tuple[str, str, str], list[int]] = {}
+    for item in results.left_out:
+        counts.setdefault((item.scene, item.sampler, item.reason), []).extend([item.count] if item.count else [])
+    return [
+        f"left out: {scene}, {sampler}, {', '.join(str(count) for count in counts)} samples: {reason}"
+        for (scene, sampler, reason), counts in counts.items()
+    ]
+
+
 def _table(scene: str, rows: list[Row]) -> list[str]:
     from samplekit.study.sentences import seconds_in_words
 

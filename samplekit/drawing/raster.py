@@ -126,5 +126,8 @@ def _blend(pixels: NDArray[np.uint8], coverage: NDArray[np.float64], colour: str
     rows = np.flatnonzero(coverage.any(axis=1))
     if rows.size:
         part = slice(rows[0], rows[-1] + 1)
-        under = pixels[part].astype(np.float64)
-        pixels[part] = np.rint(under + coverage[part, :, None] * (np.array(rgb(colour)) - under))
+        # A line covers few of the pixels in its rows: the others are not touched.
+        covered = coverage[part] > 0.0
+        under = pixels[part][covered].astype(np.float64)
+        share = coverage[part][covered][:, None]
+        pixels[part][covered] = np.rint(under + share * (np.array(rgb(colour)) - under))

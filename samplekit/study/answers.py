@@ -84,6 +84,22 @@ class Flip:
 
 
 @dataclass(frozen=True)
+class Crossing:
+    """Two samplers of which one has the smaller error at few samples, the other at many, by intervals that are apart.
+
+    ``fewer`` is the better one up to ``last``, ``more`` from ``first`` on; in between, at about ``count``, their curves
+    cross.
+    """
+
+    scene: str
+    fewer: str
+    more: str
+    last: int
+    first: int
+    count: float
+
+
+@dataclass(frozen=True)
 class LeftOut:
     """A scene and sampler, or one count of theirs, that there is no row for, and why."""
 

@@ -6,7 +6,7 @@ import itertools
 from typing import TYPE_CHECKING, Any
 
 from samplekit.errors import SamplekitError, UsageError
-from samplekit.provenance import versions
+from samplekit.study.machine import known_versions
 from samplekit.study.subjects import Subjects
 from samplekit.study.trials import carry_out
 
@@ -68,7 +68,7 @@ class Cluster:
         """
         from distributed import KilledWorker, as_completed
 
-        expected = versions()
+        expected = known_versions()
         waiting = iter(jobs)
 
         def submit(job: Job) -> Any:
@@ -76,7 +76,7 @@ class Cluster:
 
         running = {submit(job): job for job in itertools.islice(waiting, _AHEAD * self.threads)}
         try:
-            finished = as_completed(list(running))
+            finished = as_completed(list(running), loop=self._client.loop)
             for future in finished:
                 job = running.pop(future)
                 try:
@@ -103,7 +103,7 @@ _subjects = Subjects()
 
 def _carry_out_there(job: Job, expected: dict[str, str]) -> NDArray[np.float64]:
     # Checked with each job, since workers may join at any time.
-    found = versions()
+    found = known_versions()
     for name, version in expected.items():
         if found.get(name) != version:
             raise SamplekitError(f"a Dask worker has {name} {found.get(name)}, this is {version}: results would differ")

@@ -33,9 +33,11 @@ FEWEST = 5
 MOST = 101
 NARROW = 0.02
 """Half the width of the median's interval, relative, at which a cell needs no more laps."""
-_LAP_SECONDS = 0.002
+LAP_SECONDS, LOOK_SECONDS = 0.002, 0.0002
+"""Of a lap that counts, and of one that only tells the length of jobs."""
+_QUICK = 0.1
 _MOST_PIXELS = 2**18
-_PLACES = 2**14
+_PLACES = 2**12
 
 
 class Course:
@@ -51,15 +53,24 @@ class Course:
         self._buffer = np.empty(self._at_once * cell.dims * points)
         self._pixels = 1
         self._next = 0
+        began = time.perf_counter()
+        self._sampler.prepare(cell.count, cell.dims)
+        # What is shared may have been dropped for another count's: loading it again is no part of a lap.
+        self._quick_to_prepare = time.perf_counter() - began < _QUICK
 
-    def warm_up(self) -> None:
-        """Run laps that are not counted, until one lasts; it tells how many pixels the others have."""
+    def warm_up(self, lap_seconds: float = LAP_SECONDS) -> float:
+        """Run laps that are not counted, until one lasts as long; it tells how many pixels the others have.
+
+        Returns
+        -------
+        Seconds of one trial, roughly.
+        """
         while True:
             _, points_wall, _, scene_wall = self._run(self._pixels)
             seconds = points_wall + scene_wall
-            if seconds >= 0.7 * _LAP_SECONDS or self._pixels >= _MOST_PIXELS:
-                return
-            wanted = int(self._pixels * min(_LAP_SECONDS / max(seconds, 1e-7), 64.0))
+            if seconds >= 0.7 * lap_seconds or self._pixels >= _MOST_PIXELS:
+                return seconds * self.sampled / self._pixels
+            wanted = int(self._pixels * min(lap_seconds / max(seconds, 1e-7), 64.0))
             self._pixels = min(max(wanted, 2 * self._pixels), _MOST_PIXELS)
 
     def lap(self) -> Seconds:
@@ -70,6 +81,8 @@ class Course:
 
     def _run(self, pixels: int) -> Seconds:
         """Seconds for so many pixels; where there are fewer, for some of them again."""
+        if self._quick_to_prepare:
+            self._sampler.prepare(self.cell.count, self.cell.dims)
         parts = []
         for first in range(0, pixels, self._at_once):
             start = (self._next + first) % (len(self._realizations) - self._at_once + 1)

@@ -1,11 +1,20 @@
-"""The machine that times are taken on: what must be equal for them to be compared."""
+"""The machine that times are taken on, and the versions that numbers are made with: what must be equal to compare."""
 
 from __future__ import annotations
 
 import platform
+from functools import cache
 from pathlib import Path
 
 import psutil
+
+from samplekit.provenance import versions
+
+
+@cache
+def known_versions() -> dict[str, str]:
+    """The versions of samplekit, Python and libraries, looked up once."""
+    return versions()
 
 
 def describe_machine() -> dict[str, str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import types
-from dataclasses import fields, is_dataclass
+from dataclasses import MISSING, fields, is_dataclass
 from typing import Any, TypeVar, get_args, get_origin, get_type_hints
 
 T = TypeVar("T")
@@ -15,14 +15,15 @@ def from_plain(kind: type[T], plain: Any) -> T:
     Raises
     ------
     KeyError, TypeError, ValueError
-        A field is missing, unknown, or of another type.
+        A field without a default is missing, one is unknown, or of another type.
     """
     hints = get_type_hints(kind)
-    names = [item.name for item in fields(kind)]  # type: ignore[arg-type]
-    unknown = set(plain) - set(names)
+    items = {item.name: item for item in fields(kind)}  # type: ignore[arg-type]
+    unknown = set(plain) - set(items)
     if unknown:
         raise KeyError(", ".join(sorted(unknown)))
-    return kind(**{name: _value(hints[name], plain[name]) for name in names})
+    given = [name for name, item in items.items() if name in plain or item.default_factory is MISSING]
+    return kind(**{name: _value(hints[name], plain[name]) for name in given})
 
 
 def _value(kind: Any, plain: Any) -> Any:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import multiprocessing
+import os
 import signal
 import threading
 from concurrent.futures import FIRST_COMPLETED, Executor, ProcessPoolExecutor, ThreadPoolExecutor, wait
@@ -66,7 +67,7 @@ def in_processes(jobs: Sequence[Job], processes: int, tick: Callable[[int], None
         One of them was ended from outside.
     """
     # A fork of a process that has written images hangs.
-    pool = ProcessPoolExecutor(processes, multiprocessing.get_context("spawn"), _ignore_interrupts)
+    pool = ProcessPoolExecutor(processes, multiprocessing.get_context("spawn"), _begin_worker)
     try:
         for job, sums in _as_they_come(jobs, processes, lambda job: pool.submit(_carry_out_here, job)):
             tick(job.samples)
@@ -104,9 +105,18 @@ _subjects = Subjects()
 """Those of a worker process."""
 
 
-def _ignore_interrupts() -> None:
+def _begin_worker() -> None:
     # The terminal interrupts all processes at once; the one that began them decides.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    # A worker waits for jobs for ever when the process that hands them out is killed.
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)
 
 
 def _carry_out_here(job: Job) -> NDArray[np.float64]:

@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from samplekit.errors import UsageError
-from samplekit.study.answers import Choice, Fit, Flip, LeftOut, ToTarget
+from samplekit.study.answers import Choice, Crossing, Fit, Flip, LeftOut, ToTarget
 from samplekit.study.measured import LEVEL, Clock, Interval, Pictures, Row, Spread, Times
 from samplekit.study.plain_data import from_plain
 
@@ -21,6 +21,7 @@ __all__ = [
     "SCHEMA",
     "Choice",
     "Clock",
+    "Crossing",
     "Fit",
     "Flip",
     "Interval",
@@ -64,6 +65,8 @@ class Results:
         One for each scene and sampler, and one for each scene on the whole.
     plots
         Files relative to ``results.json``.
+    crossings
+        Scene by scene, the lowest count first.
     """
 
     command: str
@@ -88,6 +91,7 @@ class Results:
     sentences: list[str]
     notes: list[str]
     plots: list[str] = field(default_factory=list)
+    crossings: list[Crossing] = field(default_factory=list)
 
 
 def to_json(results: Results) -> str:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from samplekit.study.results import Choice, Fit, Flip, ToTarget
+    from samplekit.study.results import Choice, Crossing, Fit, Flip, ToTarget
 
 _UNITS = ((1.0, "s"), (1e-3, "ms"), (1e-6, "µs"), (1e-9, "ns"))
 
@@ -24,6 +24,7 @@ def sentences(
     front: Sequence[Choice],
     flips: Sequence[Flip],
     fits: Sequence[Fit],
+    crossings: Sequence[Crossing],
 ) -> list[str]:
     """Sentences for each scene that has a target."""
     found: list[str] = []
@@ -31,6 +32,12 @@ def sentences(
         own = [need for need in to_target if need.scene == scene]
         choices = [choice for choice in front if choice.scene == scene]
         found.append(_of_scene(scene, error, own, choices, [flip for flip in flips if flip.scene == scene]))
+        found += [
+            f"{scene}: {crossing.fewer} has the smaller error up to {crossing.last} samples, {crossing.more} from"
+            f" {crossing.first} on; their curves cross at about {crossing.count:.0f}."
+            for crossing in crossings
+            if crossing.scene == scene
+        ]
         slopes = {fit.sampler: fit for fit in fits if fit.scene == scene}
         found += [_of_sampler(need, own, choices, slopes.get(need.sampler)) for need in own]
     return found

@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING
 
 from samplekit.errors import UsageError
 from samplekit.integration.threads import check_threads
-from samplekit.provenance import versions
 from samplekit.study import ranking
 from samplekit.study.cells import lay_out
 from samplekit.study.cluster import Cluster
+from samplekit.study.crossings import crossings
 from samplekit.study.folder import check_folder
 from samplekit.study.jobs import gaps, split
-from samplekit.study.laps import Course, run_laps
-from samplekit.study.machine import describe_machine, kind
+from samplekit.study.laps import LAP_SECONDS, LOOK_SECONDS, Course, run_laps
+from samplekit.study.machine import describe_machine, kind, known_versions
 from samplekit.study.pool import in_processes, on_threads
 from samplekit.study.results import Results
 from samplekit.study.rows import Analysis
@@ -56,13 +56,13 @@ class Study:
             raise UsageError("--resume needs --output, the folder of the study")
         self._request, self._manner, self._subjects = request, manner, subjects
         self._cells, self._left_out = lay_out(request, subjects)
-        self._machine = describe_machine()
+        self._machine, self._versions = describe_machine(), known_versions()
         self._cluster = Cluster(manner.dask) if manner.dask is not None else None
         if folder is not None:
             check_folder(folder, resume=resume)
         self._store = Store(folder)
         try:
-            self._store.begin(request.plain(), versions())
+            self._store.begin(request.plain(), self._versions)
         except BaseException:
             self.close()
             raise
@@ -89,13 +89,14 @@ class Study:
         """
         self._set_up(progress)
         courses = [Course(cell, self._request, self._subjects) for cell in self._cells]
+        seconds = {}
         for number, course in enumerate(courses):
-            course.warm_up()
+            seconds[course.cell] = course.warm_up(LAP_SECONDS if self._manner.times else LOOK_SECONDS)
             progress("warming up", number + 1, len(courses))
         if self._manner.times:
             self._laps(courses, 0.0, progress)
         began = time.perf_counter()
-        self._errors({course.cell: _seconds_of(course) for course in courses}, progress)
+        self._errors(seconds, progress)
         if self._manner.times:
             share = _SHARE * (time.perf_counter() - began)
             self._laps(courses, share if self._manner.budget is None else self._manner.budget, progress)
@@ -156,14 +157,14 @@ class Study:
         fits = analysis.fits(rows)
         target = ranking.targets(rows, manner.target)
         to_target = ranking.times_to_target(rows, target)
-        front = ranking.front(rows)
+        front, crossed = ranking.front(rows), crossings(rows)
         flips = ranking.flips(rows, to_target, manner.cost)
         more = [f"--cost {manner.cost:g}"] if manner.cost else []
         more += [f"--target {manner.target:g}"] if manner.target else []
         more += [f"--fit {manner.fitted[0]}..{manner.fitted[1]}"] if manner.fitted else []
         return Results(
             command=request.command(*more),
-            versions=versions(),
+            versions=self._versions,
             machine=self._machine,
             scenes=list(request.scenes),
             samplers=list(request.samplers),
@@ -181,8 +182,9 @@ class Study:
             front=front,
             flips=flips,
             left_out=[*self._left_out, *analysis.left_out],
-            sentences=sentences(target, to_target, front, flips, fits),
+            sentences=sentences(target, to_target, front, flips, fits, crossed),
             notes=self._notes(),
+            crossings=crossed,
         )
 
     def _workers(self) -> str:
@@ -200,9 +202,3 @@ class Study:
         if self._cluster is not None:
             notes.append("Errors were computed by the cluster; times were taken where the command ran.")
         return notes
-
-
-def _seconds_of(course: Course) -> float:
-    """What a trial takes, roughly."""
-    points_cpu, _, scene_cpu, _ = course.lap()
-    return points_cpu + scene_cpu

@@ -37,12 +37,13 @@ COLUMNS = 7
 _STRIDE = 4099
 """Pixels between trials: a prime, so that no tile or period of a sampler gives two the same place within it."""
 _ROW = 2**20
+_STEP = 0xD1342543DE82EF95
 _PIXELS_AT_ONCE = 2**16
 
 
 def seed_of(seed: int, trial: int) -> int:
     """The seed of an image: that of the study for the first, hashed for the others."""
-    return int(seed_word((seed + trial * 0x9E3779B97F4A7C15) % 2**64)) if trial else seed
+    return int(seed_word((seed + trial * _STEP) % 2**64)) if trial else seed
 
 
 def carry_out(job: Job, subjects: Subjects, tick: Tick = lambda _: None) -> Array:

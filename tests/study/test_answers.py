@@ -1,0 +1,101 @@
+"""Answers: targets, the front, flips by cost and crossings, against what can be worked out by hand."""
+
+from itertools import pairwise
+
+import pytest
+
+from samplekit.study.crossings import crossings
+from samplekit.study.ranking import flips, front, targets, times_to_target
+from samplekit.study.results import Interval, Row
+from samplekit.study.sentences import seconds_in_words, sentences
+
+
+def row(sampler, count, mse, time, width=1.1, scene="disk"):
+    interval = Interval(mse, mse / width, mse * width)
+    return Row(
+        scene, sampler, count, [count], "", 2, count, 100, interval, interval, Interval(0.0), interval, Interval(0.0),
+        None, None, None, 0.0, "exact", 0, None, time, True, "", [], None,
+    )  # fmt: skip
+
+
+def curve(sampler, constant, slope, seconds, counts=(4, 16, 64, 256)):
+    return [row(sampler, n, constant * n**slope, seconds * n) for n in counts]
+
+
+CHEAP = curve("cheap", 1.0, -1.0, 1e-9)
+GOOD = curve("good", 1.0, -1.5, 5e-9)
+
+
+def test_target_is_one_that_all_reach():
+    target = targets(CHEAP + GOOD, None)
+    assert target == {"disk": pytest.approx(1 / 256)}
+    assert targets(CHEAP + GOOD, 0.01) == {"disk": 0.01}
+
+
+def test_time_to_target_follows_the_law_between_rows():
+    cheap, good = times_to_target(CHEAP + GOOD, {"disk": 0.02})
+    assert cheap.count == pytest.approx(50.0)
+    assert cheap.seconds == pytest.approx(50e-9)
+    assert good.count == pytest.approx(0.02 ** (-1 / 1.5))
+    missed, _ = times_to_target(CHEAP + GOOD, {"disk": 1e-3})
+    assert (missed.count, missed.seconds) == (None, None)
+    assert "256" in missed.note
+    assert times_to_target(CHEAP, {"disk": 0.5})[0].count == 4.0
+
+
+def test_flip_is_where_the_times_are_equal():
+    rows = CHEAP + GOOD
+    needs = times_to_target(rows, {"disk": 0.02})
+    (flip,) = flips(rows, needs, 0.0)
+    times = [need.seconds + flip.cost * 1e-9 * need.count for need in needs]
+    assert times[0] == pytest.approx(times[1])
+    assert (flip.below, flip.above, flip.leads) == ("cheap", "good", True)
+    # The same flip if a part of the cost is in the times already.
+    dearer = [row(r.sampler, r.count, r.mse.estimate, r.time + 2e-9 * r.samples) for r in rows]
+    (again,) = flips(dearer, times_to_target(dearer, {"disk": 0.02}), 2.0)
+    assert again.cost == pytest.approx(flip.cost, rel=1e-6)
+
+
+def test_front_has_what_nothing_beats():
+    choices = front(CHEAP + GOOD)
+    assert all(a.seconds < b.seconds and a.mse > b.mse for a, b in pairwise(choices))
+    rows = {(r.time, r.mse.estimate): (r.sampler, r.count) for r in CHEAP + GOOD}
+    unbeaten = {
+        name
+        for (time, mse), name in rows.items()
+        if not any(t <= time and m <= mse and (t, m) != (time, mse) for t, m in rows)
+    }
+    assert {(choice.sampler, choice.count) for choice in choices} == unbeaten
+    assert [choice.until for choice in choices] == [*(choice.seconds for choice in choices[1:]), None]
+
+
+def test_crossing_lies_where_the_laws_are_equal():
+    flat, steep = curve("flat", 0.1, -1.0, 1e-9), curve("steep", 1.0, -1.5, 1e-9, (4, 16, 64, 256, 1024))
+    (crossing,) = crossings([*flat, row("flat", 1024, 0.1 / 1024, 1e-6), *steep])
+    assert (crossing.fewer, crossing.more) == ("flat", "steep")
+    assert crossing.count == pytest.approx(100.0)
+    assert (crossing.last, crossing.first) == (64, 256)
+
+
+def test_overlapping_intervals_tell_no_crossing():
+    wide = [row("a", 4, 1.0, 1.0, 3.0), row("a", 16, 0.1, 1.0, 3.0), row("b", 4, 0.8, 1.0), row("b", 16, 0.11, 1.0)]
+    assert crossings(wide) == []
+
+
+def test_sentences_name_the_numbers():
+    rows = CHEAP + GOOD
+    target = {"disk": 0.02}
+    needs = times_to_target(rows, target)
+    words = sentences(target, needs, front(rows), flips(rows, needs, 0.0), [], crossings(rows))
+    assert words[0].startswith("disk: for an mse of 0.02, good needs the fewest samples (13.6)")
+    assert "cheap the least time (50 ns)" in words[0]
+    assert len(words) == 3
+    assert all(sentence.endswith(".") and "\n" not in sentence for sentence in words)
+
+
+@pytest.mark.parametrize(
+    ("seconds", "text"),
+    [(2.5, "2.5 s"), (9.999e-4, "1 ms"), (1.25e-3, "1.25 ms"), (9.5e-4, "950 µs"), (3e-10, "0.3 ns")],
+)
+def test_times_in_words(seconds, text):
+    assert seconds_in_words(seconds) == text

@@ -1,0 +1,74 @@
+"""Which rows there are: counts that a sampler cannot make are replaced by the nearest below, visibly."""
+
+import numpy as np
+import pytest
+
+import samplekit
+from samplekit.errors import UsageError
+from samplekit.study.cells import lay_out
+from samplekit.study.request import checked_request
+from samplekit.study.subjects import Subjects
+
+
+def cells_of(samplers, counts, *, scenes=("disk",), trials=8, size=(1, 1)):
+    return lay_out(checked_request(scenes, samplers, counts, trials, size, 0), Subjects())
+
+
+def test_counts_are_replaced_by_the_nearest_below():
+    cells, left_out = cells_of(["jittered", "random"], [13, 14, 16, 97])
+    jittered = {cell.count: cell for cell in cells if cell.sampler == "jittered"}
+    assert {count: cell.asked for count, cell in jittered.items()} == {12: (13, 14), 16: (16,), 96: (97,)}
+    assert "not 97" in jittered[96].replaced
+    assert jittered[16].replaced == ""
+    assert [cell.count for cell in cells if cell.sampler == "random"] == [13, 14, 16, 97]
+    assert left_out == []
+
+
+def test_what_cannot_be_made_is_left_out_with_its_reason():
+    cells, left_out = cells_of(
+        ["orthogonal-array", "random", "poisson-disk"], [2, 9], scenes=["disk", "depth-of-field"]
+    )
+    assert {(cell.scene, cell.sampler) for cell in cells} >= {("disk", "poisson-disk"), ("depth-of-field", "random")}
+    reasons = {(item.scene, item.sampler, item.count): item.reason for item in left_out}
+    assert "not 2" in reasons["disk", "orthogonal-array", 2]
+    assert "2 dimensions" in reasons["depth-of-field", "poisson-disk", 9]
+
+
+def test_nothing_left_is_an_error():
+    with pytest.raises(UsageError, match="dimension"):
+        cells_of(["van-der-corput"], [16])
+
+
+def test_sampler_that_is_not_random_has_one_trial():
+    found = samplekit.compare(["hammersley", "hammersley+shift"], "gaussian", [64], trials=8, size=(1, 1), times=False)
+    fixed, shifted = found.rows
+    assert (fixed.trials, fixed.mse.low) == (1, None)
+    assert any("not random" in note for note in fixed.notes)
+    edges = np.array([0.0, 1.0])
+    error = samplekit.estimate("gaussian", "hammersley", 64)[0] - samplekit.scene("gaussian").exact(edges, edges)[0, 0]
+    assert fixed.bias.estimate == pytest.approx(error, rel=1e-12)
+    assert fixed.mse.estimate == pytest.approx(error**2, rel=1e-12)
+    assert shifted.trials == 8
+    assert shifted.mse.low is not None
+
+
+def test_single_trial_says_that_it_has_no_interval():
+    row = samplekit.compare("random", "disk", 16, trials=1, size=(8, 8), times=False).rows[0]
+    assert (row.mse.low, row.variance.estimate) == (None, None)
+    assert "a single trial: errors have no interval" in row.notes
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (([], ["random"], [4]), "no scene"),
+        ((["disk"], [], [4]), "no sampler"),
+        ((["disk"], ["random"], []), "no counts"),
+        ((["disk"], ["random", "random"], [4]), "given twice"),
+        ((["disk"], ["random"], [0]), "positive"),
+        ((["disk"], ["random"], [2**50]), "at most"),
+    ],
+)
+def test_bad_requests(arguments, message):
+    with pytest.raises(UsageError, match=message):
+        checked_request(*arguments, 8, (1, 1), 0)
