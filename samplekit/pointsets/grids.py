@@ -49,8 +49,20 @@ def grid_of(promises: Sequence[Promise], count: int, dims: int, axes: tuple[int,
 
 def describe_grids(promises: Sequence[Promise], count: int, dims: int) -> str:
     """Say what is promised of sets of ``count`` points: empty if it is nothing."""
-    phrases = [_phrase(promise, count, dims) for promise in promises]
+    phrases = [
+        _phrase(promise, count, dims)
+        for promise in promises
+        if not any(_implies(other, promise, dims) for other in promises)
+    ]
     return "; ".join(dict.fromkeys(phrase for phrase in phrases if phrase))
+
+
+def _implies(net: Promise, other: Promise, dims: int) -> bool:
+    """Whether, of the first ``dims`` dimensions, ``net`` says all that ``other`` says, and more."""
+    if not (isinstance(net, Net) and isinstance(other, Net) and net.base == other.base and net.t <= other.t):
+        return False
+    axes, others = ({axis for axis in each.dims if axis < dims} for each in (net, other))
+    return others <= axes and (others < axes or net.t < other.t)
 
 
 def _cells(promise: Promise, count: int, dims: int, pair: tuple[int, int]) -> tuple[int, int]:

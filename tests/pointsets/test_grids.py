@@ -88,3 +88,11 @@ def test_nothing_promised_is_no_grid_and_no_words():
 )
 def test_words(promises, count, dims, words):
     assert describe_grids(promises, count, dims) == words
+
+
+def test_a_net_that_another_implies_is_not_spoken_of():
+    promises = (Net(dims=(0, 1)), Net(dims=(0, 2), t=1), Net(dims=(0, 1, 2), t=1), Net(dims=(2,)))
+    assert describe_grids(promises, 16, 2) == "4 x 4 elementary intervals in base 2"
+    assert describe_grids(promises, 16, 3) == (
+        "4 x 4 elementary intervals in base 2 of x0, x1; 4 x 2 elementary intervals in base 2; 16 intervals of x2"
+    )

@@ -24,7 +24,8 @@ def samplekit_samplers() -> list[SamplerSpec]:
                 Option(
                     "vector",
                     "ckn",
-                    "generating vector: ckn for all pairs of 250 dimensions, hkkn for smooth periodic integrands in 10",
+                    "generating vector: ckn for pairs of 250 dimensions from 2^10 points on, hkkn for smooth periodic"
+                    " integrands in 10",
                     choices=("ckn", "hkkn"),
                 ),
             ),

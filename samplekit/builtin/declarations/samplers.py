@@ -7,9 +7,13 @@ from samplekit.specs import GridStrata, LatinStrata, Net, Option, OrthogonalArra
 _SAMPLERS = "samplekit.builtin.samplers."
 
 
-def _owen_sobol_nets(first: int) -> tuple[Net, ...]:
-    """The nets of a block of four dimensions: t is the sum of the polynomials' degrees less one (Sobol' 1967)."""
+def _sobol_nets(first: int) -> tuple[Net, ...]:
+    """The nets of a block of Sobol's first four dimensions: t is the sum of the polynomials' degrees less one each.
+
+    Sobol' 1967. Of any one dimension t is 0.
+    """
     quality = {(0, 1): 0, (0, 2): 1, (1, 2): 1, (0, 3): 2, (1, 3): 2, (2, 3): 3, (0, 1, 2): 1, (0, 1, 2, 3): 3}
+    quality |= {(2,): 0, (3,): 0}
     return tuple(Net(dims=tuple(first + d for d in dims), t=t) for dims, t in quality.items())
 
 
@@ -165,7 +169,8 @@ SAMPLERS = (
         randomized=False,
         unbiased=False,
         largest_index=2**32 - 1,
-        promises=(Net(dims=(0, 1), base=2),),
+        # The same is true of each of the 4096 dimensions alone.
+        promises=(*_sobol_nets(0), *(Net(dims=(d,)) for d in range(4, 8))),
     ),
     SamplerSpec(
         "niederreiter",
@@ -185,7 +190,7 @@ SAMPLERS = (
         "Sobol points in blocks of four dimensions, each Owen-scrambled and shuffled",
         reference="Burley 2020; Laine, Karras 2011; Joe, Kuo 2008",
         progressive="powers-of-2",
-        promises=(*_owen_sobol_nets(0), *_owen_sobol_nets(4)),
+        promises=(*_sobol_nets(0), *_sobol_nets(4)),
     ),
     SamplerSpec(
         "pmj02",

@@ -117,7 +117,11 @@ class VanDerCorput(RadicalInverses):
 
 
 class Hammersley(RadicalInverses):
-    """Dimension 0 is index / count, dimension d the radical inverse in the d-th prime."""
+    """Dimension 0 is index / count, dimension d the radical inverse in the d-th prime.
+
+    b^m points are a (0, m, 2)-net in base b in dimension 0 and that of the prime b. That is declared of base 2 alone,
+    for a scrambling of dimension 0 can be in one base only.
+    """
 
     def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`Sampler.fill`."""

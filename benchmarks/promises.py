@@ -1,0 +1,177 @@
+"""Every promise of every sampler, exactly, in many realisations: the tests check the same in fewer.
+
+python benchmarks/promises.py [--realizations 100] [SAMPLER...]
+
+Elementary intervals of every declared net for every power of its base from 2^2 to 2^14 points, blocks 0, 1 and 5;
+strata and orthogonal arrays at counts of all kinds; minimum distances on the torus; prefixes bit for bit.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import time
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+import samplekit
+from samplekit import MinimumDistance, Net, UsageError
+from samplekit.conformance.distance import densest_distance
+from samplekit.conformance.nets import broken_box
+from samplekit.conformance.strata import broken_cell, promised_grids
+from samplekit.registry import registry
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from samplekit.sampling.configured import ConfiguredSampler
+
+MOST_POINTS = 1 << 14
+BLOCKS = (0, 1, 5)
+COUNTS = (1, 2, 3, 4, 5, 7, 8, 9, 12, 16, 25, 27, 49, 64, 96, 97, 100, 121, 125, 343, 961, 1000, 1024, 1026, 1331, 1369)
+LARGE_COUNTS = (2025, 2048, 2491, 4096, 4913, 5041, 6859, 10201, 16384)
+DISTANCE_COUNTS = (2, 3, 5, 8, 13, 16, 64, 97, 100, 144, 256, 987, 1000, 1024)
+ROUNDING = 2.0**-51
+OPTIONS = (
+    *("halton:scramble=digits", "halton:scramble=owen", "faure:base=2", "faure:base=3", "faure:base=7"),
+    *("van-der-corput:base=3", "van-der-corput:base=6", "van-der-corput:base=10", "z-sobol:orders=all"),
+    *("orthogonal-array:offset=jittered", "orthogonal-array:offset=multi-jittered"),
+    *("orthogonal-array:strength=3", "orthogonal-array:strength=3,offset=multi-jittered"),
+    *("poisson-disk:radius=0.75", "poisson-disk:method=elimination", "rank1:vector=hkkn"),
+)
+
+
+def everything() -> list[str]:
+    """All samplers and options that promise something, plain and under the randomizers that keep it."""
+    plain = [
+        *(name for name, offer in registry().all("sampler").items() if not offer.spec.required_options),
+        *OPTIONS,
+    ]
+    suffixes = ("", *(f"+{name}" for name in registry().all("randomizer")))
+    texts = [text + suffix for text in plain for suffix in suffixes]
+    return [text for text in texts if samplekit.sampler(text).spec.promises]
+
+
+def makes(sampler: ConfiguredSampler, count: int, dims: int) -> bool:
+    try:
+        sampler.check(count, dims)
+    except UsageError:
+        return False
+    return True
+
+
+def sets(
+    sampler: ConfiguredSampler, count: int, dims: int, realizations: int, start: int, seed: int
+) -> Iterator[np.ndarray]:
+    """Points from ``start`` on, float64[R, D, n], in batches that fit into memory."""
+    realizations = realizations if sampler.spec.randomized else 1
+    points = sampler.points(count, dims, realizations=realizations, seed=seed, start=start)
+    batch = max(1, (1 << 20) // points[0].size)
+    for first in range(0, realizations, batch):
+        yield np.ascontiguousarray(points[first : first + batch].transpose(0, 2, 1))
+
+
+class Sweep:
+    """What was judged, and what failed."""
+
+    def __init__(self, text: str, realizations: int) -> None:
+        self.sampler = samplekit.sampler(text).fresh()
+        self.realizations = realizations
+        self.judged = 0
+        self.failures: list[str] = []
+        self.most = self.sampler.spec.dimensions[1] or 10**9
+
+    def judge(self, holds: bool, what: str) -> None:
+        self.judged += 1
+        if not holds:
+            self.failures.append(what)
+
+    def nets(self, net: Net) -> None:
+        dims = max(*net.dims, self.sampler.spec.dimensions[0] - 1) + 1
+        if dims > self.most:
+            return
+        for m in range(1, 15):
+            size = net.base**m
+            if m < net.t or size > MOST_POINTS:
+                continue
+            for block in BLOCKS if net.sequence else (0,):
+                count = (block + 1) * size
+                if not net.sequence and not makes(self.sampler, count, dims):
+                    continue
+                for values in sets(self.sampler, count, dims, self.realizations, block * size, seed=m):
+                    found = broken_box(values[:, list(net.dims)], net.base, net.t)
+                    self.judge(found is None, f"{net} m={m} block {block}: {found}")
+
+    def strata(self) -> None:
+        least = self.sampler.spec.dimensions[0]
+        for dims in sorted({min(max(d, least), self.most) for d in (1, 2, 3, 4, 5)}):
+            for count in COUNTS + LARGE_COUNTS:
+                if not makes(self.sampler, count, dims):
+                    continue
+                grids = [
+                    ties for promise in self.sampler.spec.promises for ties in promised_grids(promise, count, dims)
+                ]
+                if not grids:
+                    return
+                for values in sets(self.sampler, count, dims, self.realizations, 0, seed=count):
+                    for ties in grids:
+                        holds = any(broken_cell(values, grid) is None for grid in ties)
+                        self.judge(holds, f"{count} points in {dims}D: {ties}")
+
+    def distances(self, promise: MinimumDistance) -> None:
+        dims = max(2, self.sampler.spec.dimensions[0])
+        for count in DISTANCE_COUNTS:
+            densest = densest_distance(count, dims)
+            if densest is None or not makes(self.sampler, count, dims):
+                continue
+            for values in sets(self.sampler, count, dims, self.realizations, 0, seed=count):
+                for one in values:
+                    least = cKDTree(one.T, boxsize=1.0).query(one.T, 2)[0][:, 1].min()
+                    self.judge(least >= promise.fraction * densest - ROUNDING, f"{count} points: {least}")
+
+    def prefixes(self) -> None:
+        progressive = self.sampler.spec.progressive
+        if progressive == "no":
+            return
+        dims = min(self.most, 5)
+        base = 2 if progressive == "every-count" else int(progressive.rpartition("-")[2])
+        lengths = {base**k for k in range(15) if base**k < 5000}
+        if progressive == "every-count":
+            lengths |= {1, 3, 16, 100, 1000} | {n + 1 for n in lengths} | {n - 1 for n in lengths if n > 1}
+        whole = self.sampler.points(5000, dims, realizations=self.realizations, seed=1)
+        for length in sorted(lengths):
+            short = self.sampler.points(length, dims, realizations=self.realizations, seed=1)
+            self.judge(bool((short == whole[:, :length]).all()), f"prefix of {length}")
+
+    def run(self) -> None:
+        for promise in self.sampler.spec.promises:
+            if isinstance(promise, Net):
+                self.nets(promise)
+            if isinstance(promise, MinimumDistance):
+                self.distances(promise)
+        self.strata()
+        self.prefixes()
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("samplers", nargs="*")
+    parser.add_argument("--realizations", type=int, default=100)
+    arguments = parser.parse_args()
+    failed = 0
+    for text in arguments.samplers or everything():
+        began = time.perf_counter()
+        sweep = Sweep(text, arguments.realizations)
+        sweep.run()
+        failed += len(sweep.failures)
+        seconds = time.perf_counter() - began
+        print(f"{text:<46}{sweep.judged:>7} judged {len(sweep.failures):>5} failed {seconds:>7.1f} s", flush=True)
+        for failure in sweep.failures[:3]:
+            print(f"    {failure}", flush=True)
+    sys.exit(3 if failed else 0)
+
+
+if __name__ == "__main__":
+    main()
