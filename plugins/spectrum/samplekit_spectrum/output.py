@@ -90,7 +90,7 @@ def write_spectra(stem: Path, spectra: Sequence[Spectrum], metadata: dict[str, A
 def write_error_spectrum(stem: Path, spectrum: ErrorSpectrum, metadata: dict[str, Any], name: str) -> list[Path]:
     """Write the files of an error image's spectrum."""
     power = np.where(np.isnan(spectrum.power), 0.0, spectrum.power)
-    panel = Panel(spectrum.power, "", ("cycles per pixel along x", "along y"), (-0.5, 0.5))
+    panel = Panel(spectrum.power, "", "cycles per pixel along x; down: y", (-0.5, 0.5))
     headline, condition = f"error of {name}: {spectrum.verdict}", "power over its mean"
     plot = radial_plot(
         spectrum.radial,

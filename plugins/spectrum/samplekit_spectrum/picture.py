@@ -31,11 +31,11 @@ _LEAST = {1: 512, 2: 300}
 
 
 class Panel(NamedTuple):
-    """One map float64[h, w] of N times the power (NaN is left out), its title, the names of its axes and their ends."""
+    """One map float64[h, w] of N times the power (NaN is left out), its title, what its axes are and their ends."""
 
     values: NDArray[np.float64]
     title: str
-    axes: tuple[str, str]
+    axes: str
     ends: tuple[float, float]
 
 
@@ -101,17 +101,17 @@ def _panels(spectra: Sequence[Spectrum]) -> tuple[list[Panel], list[tuple[int, i
         values = spectrum.normalized
         values.reshape(-1)[values.size // 2] = np.nan
         end = cube.reach * cube.step
-        names = [f"frequency along x{axis}" for axis in spectrum.project]
+        axes = f"frequency along x{spectrum.project[0]}; down: x{spectrum.project[1]}"
         if cube.dims == 3:
             slices = slice_numbers(cube.reach)
             columns = min(len(slices), 3)
             for number, z in enumerate(slices):
                 title = f"frequency {label(z * cube.step)} along x{spectrum.project[2]}"
-                panels.append(Panel(values[cube.reach + z], title, (names[0], names[1]), (-end, end)))
+                panels.append(Panel(values[cube.reach + z], title, axes, (-end, end)))
                 places.append(divmod(number, columns))
             continue
         title = f"x{spectrum.project[0]}, x{spectrum.project[1]}" if len(spectra) > 1 else ""
-        panels.append(Panel(values, title, (names[0], names[1]), (-end, end)))
+        panels.append(Panel(values, title, axes, (-end, end)))
         place = (spectrum.project[1] - 1, spectrum.project[0]) if len(spectra) > 1 else (0, 0)
         places.append(place)
     return panels, places
@@ -193,8 +193,7 @@ def _draw_panel(drawing: Drawing, panel: Panel, values: NDArray[np.float64], lef
         align = {0.0: "left", 0.5: "center", 1.0: "right"}[share]
         drawing.add(Text(value, left + share * (width - 1), top + height + 16, 12, align))
         drawing.add(Text(value, left - 6, top + 10 + share * (height - 10), 12, "right"))
-    drawing.add(Text(panel.axes[0], left + width / 2, top + height + 31, 12, "center"))
-    drawing.add(Text(f"{panel.axes[1]}: down", left + width, top + height + 31, 12, "right"))
+    drawing.add(Text(panel.axes, left + width / 2, top + height + 31, 12, "center"))
 
 
 def _draw_bar(

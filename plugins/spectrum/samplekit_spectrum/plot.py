@@ -68,7 +68,7 @@ def radial_plot(
             drawing.add(Text(word, at + 4, _TOP + 14, 11, "left", GUIDE))
     one = float(up(np.array([1.0]))[0])
     drawing.segment(_LEFT, one, _RIGHT, one, GUIDE, dashed=True)
-    drawing.add(Text("white noise", _RIGHT - 4, one - 5, 11, "right", GUIDE))
+    drawing.add(_beside("white noise", one, place(x), up(power)))
     drawing.add(Band(place(x), up(np.maximum(power - error, 0.0)), up(power + error)))
     drawing.add(Line(_curve(place(x), up(power)), CURVE, 1.6))
     drawing.add(Text(power_label, _LEFT, _TOP - 4, 12))
@@ -87,7 +87,7 @@ def _anisotropy(
 ) -> None:
     bottom = top + _ANISOTROPY
     finite = radial.anisotropy[np.isfinite(radial.anisotropy)]
-    expected = -10.0 * math.log10(realizations) if realizations else 0.0
+    expected = 0.0 - 10.0 * math.log10(realizations or 1)
     values = np.clip(np.append(finite, [expected, 0.0]), -100.0, 100.0)
     low, high = 10.0 * math.floor(float(values.min()) / 10.0 - 0.2), 10.0 * math.ceil(float(values.max()) / 10.0 + 0.2)
     up = _axis(low, high, bottom, top)
@@ -95,13 +95,28 @@ def _anisotropy(
     if realizations:
         at = float(up(np.array([expected]))[0])
         drawing.segment(_LEFT, at, _RIGHT, at, GUIDE, dashed=True)
-        word = f"isotropic, {realizations} realizations: {label(round(expected, 1))}"
-        drawing.add(Text(word, _RIGHT - 4, at - 5, 11, "right", GUIDE))
+        sets = "1 realization" if realizations == 1 else f"{realizations} realizations"
+        word = f"isotropic, {sets}: {label(round(expected, 1))}"
+        drawing.add(_beside(word, at, place(radial.frequency), up(np.clip(radial.anisotropy, low, high))))
     shown = np.isfinite(radial.anisotropy)
     if shown.any():
         heights = up(np.clip(radial.anisotropy[shown], low, high))
         drawing.add(Line(_curve(place(radial.frequency[shown]), heights), CURVE, 1.4))
     drawing.add(Text("anisotropy, dB", _LEFT, top - 6, 12))
+
+
+def _beside(word: str, at: float, x: NDArray[np.float64], y: NDArray[np.float64]) -> Text:
+    """The name of a level, where the curve leaves most room: above it or below, at its right end or its left."""
+    width = 6.0 * len(word)
+    places: list[tuple[float, int, float, float]] = []
+    for left in (_RIGHT - 4 - width, _LEFT + 4):
+        near = np.interp(np.linspace(left, left + width, 32), x, y)
+        for baseline in (at - 5, at + 13):
+            room = float(np.nanmin(np.abs(near - (baseline - 4)), initial=np.inf))
+            places.append((min(room, 20.0), -len(places), left, baseline))
+    _, _, left, baseline = max(places)
+    align = "right" if left > _LEFT + 4 else "left"
+    return Text(word, left + (width if align == "right" else 0.0), baseline, 11, align, GUIDE)
 
 
 def _curve(x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
