@@ -170,7 +170,9 @@ def ellipse(draw):
     c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
     px, py = cx + c * along - s * across, cy + s * along + c * across
     text = f"ellipse:radius={radius!r},aspect={aspect!r},angle={angle!r},cx={cx!r},cy={cy!r}"
-    return text, draw(boxes(px, py, -9.0)), Bound(relative=1e-13, absolute=TOUCHING)
+    x0, x1, y0, y1 = draw(boxes(px, py, -9.0))
+    touching = 1e-28 * max(1.0, radius / min(x1 - x0, y1 - y0))
+    return text, (x0, x1, y0, y1), Bound(relative=1e-13, absolute=touching)
 
 
 @st.composite

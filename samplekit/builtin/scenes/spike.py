@@ -74,7 +74,7 @@ class Spike(Scene):
     Raises
     ------
     UsageError
-        A parameter outside its range, or NaN; a square whose sides are one number.
+        A parameter outside its range, or NaN.
     """
 
     def __init__(
@@ -96,8 +96,6 @@ class Spike(Scene):
                 raise UsageError(f"spike: {name}={value} must be from {least:g} to {most:g}")
         half = 0.5 * math.sqrt(area)
         self.square = np.array([cx - half, cx + half, cy - half, cy + half])
-        if not (self.square[0] < self.square[1] and self.square[2] < self.square[3]):
-            raise UsageError(f"spike: area={area} is too small at cx={cx}, cy={cy}: the square's sides are one number")
         self.peak, self.background = float(peak), float(background)
 
     def sums(self, tile: Array, boxes: Array, out: Array) -> None:
