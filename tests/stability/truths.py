@@ -222,10 +222,12 @@ def factor(family, a, u, left, right):
 
         if left >= u or right <= u:
             near, far = sorted((abs(left - u), abs(right - u)))
-            return (mp.exp(-a * near) - mp.exp(-a * far)) / (a * (right - left))
+            return mp.exp(-a * near) * -mp.expm1(-a * (far - near)) / (a * (right - left))
         return (antiderivative(right) - antiderivative(left)) / (right - left)
     end = min(right, u)
-    return (mp.exp(a * (end - u)) - mp.exp(a * (left - u))) / (a * (right - left)) if end > left else mpf(0)
+    if end <= left:
+        return mpf(0)
+    return mp.exp(a * (end - u)) * -mp.expm1(-a * (end - left)) / (a * (right - left))
 
 
 def corner_peak(a, sides):
