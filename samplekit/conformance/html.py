@@ -56,19 +56,20 @@ def rate_line(subjects: int) -> str:
 
 
 def _row(outcome: Outcome) -> str:
-    why = escape(outcome.message)
-    for text in outcome.hints:
-        why += f"<br>hint: {escape(text)}"
-    for text in outcome.notes:
-        why += f"<br><span class=note>{escape(text)}</span>"
+    lines = [escape(outcome.message)] if outcome.message else []
+    lines += [f"hint: {escape(text)}" for text in outcome.hints]
+    lines += [f"<span class=note>{escape(text)}</span>" for text in outcome.notes]
+    figure = ""
     if outcome.example is not None and outcome.status in BROKEN:
-        why += f"<br><code>{escape(str(outcome.example))}</code>" + _figure(outcome.example)
+        lines.append(f"<code>{escape(str(outcome.example))}</code>")
+        figure = _figure(outcome.example)
+    why = "<br>".join(lines) + figure
     kind = outcome.status.split()[0]
     return f"<tr><td>{escape(outcome.check)}<td class={kind}>{escape(outcome.status)}<td>{why}</tr>\n"
 
 
 def _figure(example: CounterExample) -> str:
-    """A picture of the failing set, the points that break it circled; nothing where it cannot be drawn."""
+    """A picture of the failing set, its cell shaded and the points that break it circled; nothing if there is none."""
     if example.points is None or not len(example.points):
         return ""
     import numpy as np
@@ -84,6 +85,15 @@ def _figure(example: CounterExample) -> str:
     svg = "".join(svg_text(picture, {})).partition("?>\n")[2]
     panel = picture.panels[0]
     ring = 'fill="none" stroke="#1f5fbf" stroke-width="2"'
+    cell = ""
+    if example.box:
+        edges = dict(zip(example.axes, example.box, strict=True))
+        (x, right), (y, bottom) = (edges.get(axis, (0.0, 1.0)) for axis in [*axes, -1][:2])
+        cell = (
+            f'<rect x="{panel.left + x * panel.width:.2f}" y="{panel.top + y * panel.height:.2f}"'
+            f' width="{(right - x) * panel.width:.2f}" height="{(bottom - y) * panel.height:.2f}"'
+            ' fill="#c2281d" fill-opacity="0.15"/>'
+        )
     start = _first_index(example) if example.indices else 0
     circles = ""
     for index in example.indices[:64]:
@@ -91,7 +101,7 @@ def _figure(example: CounterExample) -> str:
         if 0 <= row < len(drawn) and len(panel.axes) == 2:
             x, y = panel.left + drawn[row, 0] * panel.width, panel.top + drawn[row, 1] * panel.height
             circles += f'<circle cx="{x:.2f}" cy="{y:.2f}" r="9" {ring}/>'
-    return f"<figure>{svg.replace('</svg>', circles + '</svg>')}</figure>"
+    return f"<figure>{svg.replace('</svg>', cell + circles + '</svg>')}</figure>"
 
 
 def _first_index(example: CounterExample) -> int:

@@ -129,6 +129,7 @@ def judge_net(
             first=first,
             start=start,
             axes=tuple(axes),
+            box=tuple((c / net.base**q, (c + 1) / net.base**q) for q, c in zip(shape, map(int, cell), strict=True)),
             indices=tuple(int(i) for i in np.flatnonzero(inside)),
         ),
     )

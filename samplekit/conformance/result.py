@@ -35,6 +35,8 @@ class CounterExample:
         The points that break the property: their indices in the set, and float64[k, D].
     axes
         The dimensions that matter.
+    box
+        Low and high edge along each of ``axes`` of the cell that holds too many points or too few.
     points
         The whole set, float64[N, D], for a picture; None where it is too large or the failure is not of one set.
     """
@@ -47,6 +49,7 @@ class CounterExample:
     indices: tuple[int, ...] = ()
     coordinates: tuple[tuple[float, ...], ...] = ()
     axes: tuple[int, ...] = ()
+    box: tuple[tuple[float, float], ...] = ()
     points: NDArray[np.float64] | None = None
 
     def __str__(self) -> str:
@@ -71,6 +74,7 @@ class CounterExample:
             # NaN is no JSON: a coordinate that was never written is told as text.
             "coordinates": [[x if x == x else "nan" for x in map(float, place)] for place in self.coordinates],
             "axes": list(self.axes),
+            "box": [list(edges) for edges in self.box],
         }
 
 

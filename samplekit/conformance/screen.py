@@ -90,7 +90,7 @@ def _of_a_block(failed: CheckFailed, side: int, count: int, corners: NDArray[np.
     where = f", points of the pixels {owners}" if owners else ""
     return CheckFailed(
         f"the sets of the {side} x {side} pixels from ({x}, {y}) on, together: {failed.message}{where}",
-        replace(example, count=count, realization=(x, y), indices=tuple(index % count for index in example.indices)),
+        replace(example, count=count, realization=(x, y)),
     )
 
 

@@ -100,6 +100,7 @@ def judge_strata(
                 seed=seed,
                 row=row,
                 axes=axes,
+                box=tuple((c / side, (c + 1) / side) for c, side in zip(cell, sides, strict=True)),
                 indices=tuple(int(i) for i in np.flatnonzero(inside)),
             ),
         )

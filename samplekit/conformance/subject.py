@@ -182,6 +182,7 @@ class Subject:
         start: int = 0,
         indices: tuple[int, ...] = (),
         axes: tuple[int, ...] = (),
+        box: tuple[tuple[float, float], ...] = (),
     ) -> CounterExample:
         """A counter-example in row ``row`` of ``values`` float64[R, D, n]; ``indices`` count from ``start``."""
         points = values[row].T
@@ -196,6 +197,7 @@ class Subject:
             tuple(start + i for i in indices),
             places,
             axes,
+            box,
             kept,
         )
 

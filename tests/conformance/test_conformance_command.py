@@ -61,6 +61,10 @@ def test_a_broken_promise_is_status_3_with_a_page(samplekit_with, tmp_path):
     assert re.search(r"sampler not-latin, count 2, dims 1, seed 0, realisation \d+: point 0 at \(", strata)
     text = page.read_text()
     assert "<svg" in text
+    # The cell [0, 1/2), shaded.
+    (cell,) = re.findall(r'<rect [^>]*width="([\d.]+)"[^>]*fill-opacity', text)
+    (frame,) = re.findall(r'<rect [^>]*width="([\d.]+)"(?![^>]*fill-opacity)', text)[-1:]
+    assert float(cell) == pytest.approx(float(frame) / 2, rel=0.2)
     assert "holds 2 points" in text
 
 
