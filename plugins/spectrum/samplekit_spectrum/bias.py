@@ -1,7 +1,7 @@
-"""Whether a sampler is unbiased, that is whether the mean of S(m) is zero at every m.
+"""Whether a sampler is unbiased, that is whether the mean of S(m) is zero at every integer m but 0.
 
 The mean of an estimate is the sum of f(m) conj E S(m): it is the integral for every integrand if and only if E S(m) = 0
-for all m other than 0 (Subr, Kautz 2013).
+for all m other than 0 (Subr, Kautz 2013). Between the integers E S(m) is then the transform of the unit square.
 """
 
 from __future__ import annotations
@@ -11,8 +11,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from samplekit_spectrum.frequencies import Frequencies, Listed
+
 if TYPE_CHECKING:
-    from samplekit_spectrum.frequencies import Frequencies
+    from numpy.typing import NDArray
+
     from samplekit_spectrum.moments import Moments
 
 FALSE_ALARM = 1e-3
@@ -37,6 +40,8 @@ class Bias:
         with a probability of at most 1e-3: that of Student's t squared, for the number of frequencies.
     root_mean_square
         Over all frequencies: of |E S(m)| less what its errors give by themselves.
+
+    Between integer frequencies |E S(m)| stands for what E S(m) differs by from the transform of the unit square.
     """
 
     verdict: str
@@ -53,8 +58,9 @@ def find_bias(frequencies: Frequencies, moments: Moments, *, randomized: bool = 
     from scipy.stats import f as fisher
 
     realizations = moments.realizations
-    start = 1 if not _is_listed(frequencies) else 0
-    squared = np.abs(moments.amplitude[start:]) ** 2
+    start = 0 if isinstance(frequencies, Listed) else 1
+    amplitude = moments.amplitude[start:]
+    squared = np.abs(amplitude - _of_square(frequencies)[start:]) ** 2
     if not randomized:
         worst = int(np.argmax(squared))
         size = float(np.sqrt(squared[worst]))
@@ -65,7 +71,7 @@ def find_bias(frequencies: Frequencies, moments: Moments, *, randomized: bool = 
     if realizations < _FEWEST or squared.size == 0:
         nothing = (0.0,) * frequencies.dims
         return Bias("too few realizations", nothing, np.nan, np.nan, np.nan, np.nan, np.nan)
-    variance = np.maximum(moments.mean[start:] - squared, 0.0) / (realizations - 1)
+    variance = np.maximum(moments.mean[start:] - np.abs(amplitude) ** 2, 0.0) / (realizations - 1)
     # Where the amplitude is certain to rounding, as on the zeros of a net, rounding is all that is left of it.
     certain = _ZERO**2
     score = np.where(squared <= certain, 0.0, squared / np.maximum(variance, certain * 1e-6))
@@ -83,15 +89,20 @@ def find_bias(frequencies: Frequencies, moments: Moments, *, randomized: bool = 
     )
 
 
-def _is_listed(frequencies: Frequencies) -> bool:
-    from samplekit_spectrum.frequencies import Listed
-
-    return isinstance(frequencies, Listed)
+def _of_square(frequencies: Frequencies) -> NDArray[np.complex128]:
+    """The integral of exp(-2 pi i m.x) over the unit square (cube): 0 at integers but 0."""
+    if isinstance(frequencies, Listed):
+        vectors = np.asarray(frequencies.vectors, np.float64)
+    elif float(frequencies.step).is_integer():
+        total = np.zeros(frequencies.half, np.complex128)
+        total[0] = 1.0
+        return total
+    else:
+        vectors = np.asarray(frequencies.step * frequencies.vectors(0, frequencies.half), np.float64)
+    return np.asarray(np.prod(np.sinc(vectors) * np.exp(-1j * np.pi * np.fmod(vectors, 2.0)), axis=1), np.complex128)
 
 
 def _vector(frequencies: Frequencies, index: int) -> tuple[float, ...]:
-    from samplekit_spectrum.frequencies import Listed
-
     if isinstance(frequencies, Listed):
         return tuple(float(c) for c in frequencies.vectors[index])
     return tuple(float(c) * frequencies.step for c in frequencies.vectors(index, index + 1)[0])

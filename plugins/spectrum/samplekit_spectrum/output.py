@@ -16,7 +16,7 @@ from samplekit.images.png import png_writer
 from samplekit.pointsets.verified import text_writer
 from samplekit_spectrum.frequencies import Cube, Listed
 from samplekit_spectrum.picture import Panel, maps_picture, spectrum_picture
-from samplekit_spectrum.plot import radial_plot
+from samplekit_spectrum.plot import radial_plot, spectrum_plot
 from samplekit_spectrum.tables import listed_csv, radial_csv
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ def write_spectra(stem: Path, spectra: Sequence[Spectrum], metadata: dict[str, A
         writers[".png"] = png_writer(pixels, {**metadata, "picture": facts})
     writers[".radial.csv"] = text_writer([radial_csv(spectra)])
     if len(spectra) == 1:
-        _add_plots(writers, _radial_drawing(first), metadata)
+        _add_plots(writers, spectrum_plot(first), metadata)
     return _write(writers, stem)
 
 
@@ -120,22 +120,6 @@ def _write(writers: dict[str, Writer], stem: Path) -> list[Path]:
 def _add_plots(writers: dict[str, Writer], drawing: Drawing, metadata: dict[str, Any]) -> None:
     writers[".radial.png"] = png_writer(draw_pixels(drawing, 2), metadata)
     writers[".radial.svg"] = text_writer([svg_text(drawing, metadata)])
-
-
-def _radial_drawing(spectrum: Spectrum) -> Drawing:
-    from samplekit_spectrum.picture import condition_of, headline_of
-
-    cube = spectrum.frequencies
-    root = spectrum.count ** (1.0 / cube.dims)
-    word = {1: "N", 2: "square root of N", 3: "cube root of N"}[cube.dims]
-    return radial_plot(
-        spectrum.radial,
-        spectrum.count,
-        headline=headline_of(spectrum),
-        condition=condition_of(spectrum),
-        marks=[(root, word)],
-        realizations=spectrum.realizations if spectrum.randomized else 0,
-    )
 
 
 def _parts(spectra: Sequence[Spectrum]) -> dict[str, Any]:

@@ -15,10 +15,28 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from samplekit_spectrum.radial import Radial
+    from samplekit_spectrum.spectrum import Spectrum
 
 _LEFT, _RIGHT, _TOP, _WIDTH = 70, 696, 78, 720
 _POWER, _ANISOTROPY = 300, 130
 _INTERVAL = 2.576
+
+
+def spectrum_plot(spectrum: Spectrum) -> Drawing:
+    """The plot of the radial mean of a sampler's spectrum."""
+    from samplekit_spectrum.picture import condition_of, headline_of
+
+    cube = spectrum.frequencies
+    root = spectrum.count ** (1.0 / cube.dims)
+    word = {1: "N", 2: "square root of N", 3: "cube root of N"}[cube.dims]
+    return radial_plot(
+        spectrum.radial,
+        spectrum.count,
+        headline=headline_of(spectrum),
+        condition=condition_of(spectrum),
+        marks=[(root, word)],
+        realizations=spectrum.realizations if spectrum.randomized else 0,
+    )
 
 
 def radial_plot(

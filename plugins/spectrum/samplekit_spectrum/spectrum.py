@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -55,7 +55,7 @@ class Spectrum:
     seed: int
     frequencies: Frequencies
     randomized: bool
-    _moments: Moments
+    _moments: Moments = field(repr=False)
 
     @property
     def interrupted(self) -> bool:
@@ -94,17 +94,30 @@ class Spectrum:
         """
         if not isinstance(self.frequencies, Cube):
             raise UsageError("listed frequencies have no radial mean")
-        return radial(self.frequencies, self._moments)
+        found = radial(self.frequencies, self._moments)
+        return found if self.randomized else replace(found, standard_error=np.zeros(found.power.size))
 
     def _shaped(self, half: NDArray[np.float64]) -> NDArray[np.float64]:
         return self.frequencies.full(half) if isinstance(self.frequencies, Cube) else half.copy()
 
     def _repr_png_(self) -> bytes | None:
-        if not isinstance(self.frequencies, Cube) or self.frequencies.dims == 1:
+        if not isinstance(self.frequencies, Cube):
             return None
         from samplekit_spectrum.picture import png_bytes, spectrum_picture
 
-        return png_bytes(spectrum_picture([self])[0])
+        if self.frequencies.dims > 1:
+            return png_bytes(spectrum_picture([self])[0])
+        from samplekit.drawing.raster import draw_pixels
+        from samplekit_spectrum.plot import spectrum_plot
+
+        return png_bytes(draw_pixels(spectrum_plot(self)))
+
+    def _repr_html_(self) -> str | None:
+        if isinstance(self.frequencies, Cube):
+            return None
+        from samplekit_spectrum.tables import listed_html
+
+        return listed_html(self)
 
 
 def power(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import html
 import io
 import math
 from typing import TYPE_CHECKING, Any
@@ -62,6 +63,14 @@ def listed_csv(spectra: Sequence[Spectrum]) -> str:
         ):
             writer.writerow([*name, *map(repr, vector), repr(power), repr(error)])
     return text.getvalue()
+
+
+def listed_html(spectrum: Spectrum) -> str:
+    """The power at listed frequencies as a table for a notebook."""
+    head, *rows = csv.reader(io.StringIO(listed_csv([spectrum])))
+    lines = ["".join(f"<th>{html.escape(word)}</th>" for word in head)]
+    lines += ["".join(f"<td>{float(cell):.10g}</td>" for cell in row) for row in rows]
+    return "<table>" + "".join(f"<tr>{line}</tr>" for line in lines) + "</table>"
 
 
 def spectrum_lines(spectrum: Spectrum) -> list[str]:

@@ -173,5 +173,13 @@ def test_without_the_plugin_the_command_says_where_it_is(command):
 
 
 def test_a_notebook_shows_it():
-    assert power("jittered", 16, realizations=2, max_frequency=8)._repr_png_().startswith(b"\x89PNG")
-    assert power("jittered", 16, realizations=2, frequencies=[[1.0, 2.0]])._repr_png_() is None
+    for dims in (1, 2, 3):
+        spectrum = power("random", 16, realizations=2, max_frequency=8, dims=dims)
+        assert spectrum._repr_png_().startswith(b"\x89PNG")
+        assert spectrum._repr_html_() is None
+    listed = power("jittered", 16, realizations=2, frequencies=[[1.0, 2.0], [2.0**40, 0.5]])
+    assert listed._repr_png_() is None
+    table = ElementTree.fromstring(listed._repr_html_())
+    cells = [[float(cell.text) for cell in row] for row in table[1:]]
+    assert [row[:2] for row in cells] == [[1.0, 2.0], [pytest.approx(2.0**40), 0.5]]
+    assert cells[0][2] == pytest.approx(listed.mean[0], rel=1e-9)

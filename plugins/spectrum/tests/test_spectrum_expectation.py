@@ -109,6 +109,20 @@ def test_a_bias_is_found_and_few_realizations_are_not_judged():
     assert power("random", 64, realizations=4, max_frequency=16).bias.verdict == "too few realizations"
 
 
+def test_between_the_integers_an_unbiased_sampler_has_the_transform_of_the_square():
+    """Two false alarms of 1e-3. Hammersley's points are biased at 2^4 and nowhere between."""
+    for where in ({"max_frequency": 16, "step": 0.3}, {"frequencies": [[0.0, 0.0], [0.5, 0.25], [2.0**39 + 0.5, 0.0]]}):
+        assert power("random", 16, realizations=400, **where).bias.verdict == "none found"
+        shifted = power("hammersley", 16, realizations=400, homogenize=True, **where)
+        assert shifted.bias.verdict == "none found"
+    native = power("hammersley", 16, frequencies=[[0.0, 0.0], [16.0, 0.0]]).bias
+    assert (native.verdict, native.frequency) == ("biased", (16.0, 0.0))
+
+
+def test_rings_of_a_set_that_is_not_random_have_no_error():
+    assert np.array_equal(power("regular", 16, max_frequency=4).radial.standard_error, np.zeros(4))
+
+
 @pytest.mark.parametrize(
     "wrong",
     [
