@@ -52,7 +52,7 @@ def errors_of(sums: Array, *, one_pixel: bool) -> Errors:
 def influence(sums: Array) -> Array:
     """How much each batch float64[B] adds to the relative deviation of the mean square, 0 on the whole."""
     squares, trials = sums[:, SQUARE], sums[:, TRIALS]
-    mean = math.fsum(squares) / trials.sum()
+    mean = float(np.sum(squares)) / trials.sum()
     deviations: Array = (squares - trials * mean) / (mean * trials.sum())
     return deviations
 
@@ -70,10 +70,10 @@ def ratio_of(sums: Array, baseline: Array) -> Interval | None:
     counts = [np.count_nonzero(s[:, TRIALS]) for s in (sums, baseline)]
     if min(counts) < 2:
         return Interval(mean / other)
-    squares = [math.fsum(part * part) * n / (n - 1) for part, n in zip((mine, theirs), counts, strict=True)]
+    squares = [float(np.sum(part * part)) * n / (n - 1) for part, n in zip((mine, theirs), counts, strict=True)]
     error = math.sqrt(squares[0] + squares[1])
     if len(mine) == len(theirs) and min(squares) > 0.0:
-        covariance = math.fsum(mine * theirs) * counts[0] / (counts[0] - 1)
+        covariance = float(np.sum(mine * theirs)) * counts[0] / (counts[0] - 1)
         correlation = covariance / math.sqrt(squares[0] * squares[1])
         if correlation > student(counts[0] - 1) / math.sqrt(counts[0]):
             error = math.sqrt(max(squares[0] + squares[1] - 2.0 * covariance, 0.0))
@@ -92,7 +92,7 @@ def _variance_of_one(sums: Array) -> Interval:
     number = float(trials.sum())
     if number < 2.0:
         return Interval(None)
-    mean = math.fsum(sums[:, ERROR]) / number
+    mean = float(np.sum(sums[:, ERROR])) / number
     # Sums of (e - mean)^2 over the batches; what is left of rounding must not be negative.
     squares = np.maximum(sums[:, SQUARE] - 2.0 * mean * sums[:, ERROR] + trials * mean * mean, 0.0)
     return positive_interval(squares * (number / (number - 1.0)), trials, one_pixel=True)

@@ -75,7 +75,7 @@ def _covariance(influences: Sequence[Array | None]) -> Array:
     for i, mine in enumerate(influences):
         for j, theirs in enumerate(influences):
             if mine is not None and theirs is not None and len(mine) == len(theirs) and len(mine) > 1:
-                covariance[i, j] = math.fsum(mine * theirs) * len(mine) / (len(mine) - 1)
+                covariance[i, j] = float(np.sum(mine * theirs)) * len(mine) / (len(mine) - 1)
     return covariance
 
 

@@ -122,7 +122,7 @@ def _mean_and_error(sums: Array, sizes: Array) -> tuple[float | None, float | No
     total = float(sizes.sum())
     if total == 0.0:
         return None, None
-    mean = math.fsum(sums) / total
+    mean = float(np.sum(sums)) / total
     if not math.isfinite(mean):
         return None, None
     batches = _batches(sizes)
@@ -130,5 +130,5 @@ def _mean_and_error(sums: Array, sizes: Array) -> tuple[float | None, float | No
         return mean, None
     # Batches may differ in size: the error of a ratio of sums (Cochran 1977, "Sampling Techniques", 6.3).
     deviations = sums - sizes * mean
-    error = math.sqrt(batches / (batches - 1) * math.fsum(deviations * deviations)) / total
+    error = math.sqrt(batches / (batches - 1) * float(np.sum(deviations * deviations))) / total
     return mean, error if math.isfinite(error) else None

@@ -33,7 +33,7 @@ FEWEST = 5
 MOST = 101
 NARROW = 0.02
 """Half the width of the median's interval, relative, at which a cell needs no more laps."""
-LAP_SECONDS, LOOK_SECONDS = 0.002, 0.0002
+LAP_SECONDS, LOOK_SECONDS = 0.002, 0.0001
 """Of a lap that counts, and of one that only tells the length of jobs."""
 _QUICK = 0.1
 _MOST_PIXELS = 2**18

@@ -14,8 +14,9 @@ import numpy as np
 from samplekit.integration.estimator import UNIT_SQUARE, Estimator, Seconds
 from samplekit.integration.pixels import locate
 from samplekit.integration.plan import make_plan
-from samplekit.metrics import blur
+from samplekit.numerics.kernel import kernel
 from samplekit.sampling.realizations import Realizations, seed_word
+from samplekit.study.blurred import blurred_mean_square
 from samplekit.study.prefixes import prefix_means
 
 if TYPE_CHECKING:
@@ -66,28 +67,37 @@ def carry_out(job: Job, subjects: Subjects, tick: Tick = lambda _: None) -> Arra
 def _of_square(job: Job, subjects: Subjects, tick: Tick) -> Array:
     scene = subjects.scene(job.scene)
     trial = np.arange(job.first, job.last, dtype=np.int64)
-    realizations = Realizations.of_pixels(trial % _ROW * _STRIDE, trial // _ROW * _STRIDE, job.seed, scene.blocks)
+    row = np.zeros_like(trial) if job.last <= _ROW else trial // _ROW
+    realizations = Realizations.of_pixels((trial - row * _ROW) * _STRIDE, row * _STRIDE, job.seed, scene.blocks)
     boxes = np.repeat(np.array(UNIT_SQUARE)[:, None], trial.size, axis=1)
     errors = _means(job, subjects, realizations, boxes, tick) - subjects.reference(job.scene, (1, 1)).image[0, 0]
     return np.stack([_batches(row, job.batch) for row in errors])
 
 
+@kernel("void(float64[::1], int64, float64[:,::1])")
+def _sum_batches(errors: Array, batch: int, columns: Array) -> None:
+    """Write the sums over batches of the errors float64[T] of single pixels to float64[B, COLUMNS], which are 0."""
+    for b in range(columns.shape[0]):
+        first = b * batch
+        last = min(first + batch, errors.size)
+        for t in range(first, last):
+            square = errors[t] * errors[t]
+            if not np.isfinite(square):
+                columns[b, INVALID] += 1.0
+                continue
+            columns[b, TRIALS] += 1.0
+            columns[b, ERROR] += errors[t]
+            columns[b, SQUARE] += square
+            # Batches begin at even trials, and so do jobs.
+            if t % 2 == 0 and t + 1 < errors.size and np.isfinite(errors[t + 1] * errors[t + 1]):
+                columns[b, PAIRS] += 1.0
+                columns[b, PRODUCT] += errors[t] * errors[t + 1]
+
+
 def _batches(errors: Array, batch: int) -> Array:
-    """Sums over batches of the errors float64[T] of single pixels."""
-    starts = np.arange(0, errors.size, batch)
-    squares = errors * errors
-    valid = np.isfinite(squares)
-    ones = valid.astype(np.float64)
-    if not valid.all():
-        errors, squares = np.where(valid, errors, 0.0), np.where(valid, squares, 0.0)
-    pairs, products = np.zeros(errors.size), np.zeros(errors.size)
-    paired = errors.size // 2 * 2
-    pairs[:paired:2] = ones[:paired:2] * ones[1:paired:2]
-    products[:paired:2] = errors[:paired:2] * errors[1:paired:2]
-    columns = (ones, errors, squares, pairs, products, np.zeros(errors.size), 1.0 - ones)
-    if batch == 1:
-        return np.stack(columns, axis=1)
-    return np.stack([np.add.reduceat(column, starts) for column in columns], axis=1)
+    columns = np.zeros((-(-errors.size // batch), COLUMNS))
+    _sum_batches(np.ascontiguousarray(errors), batch, columns)
+    return columns
 
 
 def _means(job: Job, subjects: Subjects, realizations: Realizations, boxes: Array, tick: Tick) -> Array:
@@ -116,9 +126,7 @@ def _of_images(job: Job, subjects: Subjects, tick: Tick) -> Array:
         for row, error in enumerate(errors):
             rows[number, row] = _of_image(error, job.size)
             if trial % 2 == 1 and number > 0:
-                product = errors[row] * previous[row]
-                product = product[np.isfinite(product)]
-                rows[number - 1, row, PAIRS : PRODUCT + 1] = float(product.size > 0), _mean(product)
+                rows[number - 1, row, PAIRS : PRODUCT + 1] = _product(error, previous[row])
         previous = errors
     starts = np.arange(0, job.last - job.first, job.batch)
     return np.add.reduceat(rows, starts, axis=0).transpose(1, 0, 2)
@@ -132,17 +140,22 @@ def _of_image(error: Array, size: tuple[int, int]) -> Array:
         columns[INVALID] = error.size
         return columns
     shape = size[1], size[0]
-    blurred = blur(np.where(valid, error, 0.0).reshape(shape), valid.reshape(shape)).ravel()
-    if not valid.all():
-        error, blurred = error[valid], blurred[valid]
-    columns[[TRIALS, ERROR, SQUARE, BLURRED, INVALID]] = (
-        1.0,
-        _mean(error),
-        _mean(error * error),
-        _mean(blurred * blurred),
-        valid.size - error.size,
-    )
+    shown = error if valid.all() else np.where(valid, error, 0.0)
+    blurred = blurred_mean_square(shown.reshape(shape), valid.reshape(shape))
+    error = error if valid.all() else error[valid]
+    columns[[TRIALS, ERROR, SQUARE, BLURRED]] = 1.0, _mean(error), _mean(error * error), blurred
+    columns[INVALID] = valid.size - error.size
     return columns
+
+
+def _product(error: Array, other: Array) -> tuple[float, float]:
+    """1 and the mean product of the errors of a pair; 0 and 0 where no pixel has both."""
+    products = error * other
+    mean = _mean(products)
+    if not np.isfinite(mean):
+        products = products[np.isfinite(products)]
+        mean = _mean(products)
+    return float(products.size > 0), mean
 
 
 def _mean(values: Array) -> float:
