@@ -26,7 +26,7 @@ Progress = Callable[[int, int], None]
 TRIALS = 40_000
 PRECISION = 0.008
 """Relative standard error of a variance of 40000 normal estimates, and a little more."""
-_MOST = 8
+_MOST = 32
 _BLOCK = 256
 ZERO = 1e-13
 """Relative to the root mean square of the integrand, deviations that rounding explains."""
