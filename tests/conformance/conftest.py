@@ -4,8 +4,12 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from typing import NamedTuple
 
 import pytest
+
+from samplekit.cli import notices, run
+from samplekit.registry import registry
 
 STRANGERS = Path(__file__).parent / "strangers"
 sys.path.insert(0, str(STRANGERS))
@@ -22,6 +26,25 @@ def installed(tmp_path_factory):
     (metadata / "METADATA").write_text("Metadata-Version: 2.1\nName: faulty\nVersion: 0.1\n")
     (metadata / "entry_points.txt").write_text(ENTRY_POINTS)
     return folder
+
+
+class Result(NamedTuple):
+    """How a command in this process ended, with the names that a finished process has."""
+
+    returncode: int
+    stdout: str
+    stderr: str
+
+
+@pytest.fixture
+def samplekit_here(installed, monkeypatch, capsys):
+    """Run ``samplekit ARGUMENTS`` in this process where the faulty plugins are installed."""
+    monkeypatch.syspath_prepend(installed)
+    monkeypatch.setattr(notices, "announce_compilation", lambda: None)
+    monkeypatch.setenv("COLUMNS", "200")
+    registry.cache_clear()
+    yield lambda *arguments: Result(run([*arguments]), *capsys.readouterr())
+    registry.cache_clear()
 
 
 @pytest.fixture
