@@ -82,7 +82,7 @@ def heat_map(name: str, cells: Sequence[Cell], title: str) -> Drawing:
                     y = upper + 36 + down * _CELL_HEIGHT
                     colour, text = of(by_place[extreme, sampler, count])
                     _fill(drawing, left + across * _CELL_WIDTH, y, colour)
-                    ink = "#ffffff" if sum(rgb(colour)) < 330 else INK
+                    ink = "#ffffff" if sum(rgb(colour)) < 430 else INK
                     drawing.add(Text(text, middle, y + 14, 11, "center", ink))
         for down, extreme in enumerate(extremes):
             drawing.add(Text(extreme or name, margin, upper + 50 + down * _CELL_HEIGHT, 12))

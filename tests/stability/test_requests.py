@@ -28,6 +28,8 @@ def in_range(points):
 
 def counts_around(sampler, dims, index):
     """Counts of sets that have a point of this index, the least first; none if there is no such set."""
+    if index > sampler.spec.largest_index:
+        return
     nearest = nearest_above(sampler.spec.counts, index + 1, dims)
     for count in dict.fromkeys((index + _PART, nearest, 2 * index, 1 << max(index, 1).bit_length())):
         if count and count > index and possible(sampler, count, dims):
