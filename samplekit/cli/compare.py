@@ -63,7 +63,9 @@ def compare(
     budget: Annotated[
         str,
         typer.Option(
-            "--budget", metavar="SECONDS", help="For measuring run times; by default a tenth of what errors take."
+            "--budget",
+            metavar="SECONDS",
+            help="For measuring run times; by default a tenth of what errors take, at least 1.",
         ),
     ] = "",
     cost: Annotated[

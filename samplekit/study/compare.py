@@ -60,7 +60,7 @@ def compare(
     dask
         Address of a Dask scheduler whose workers compute the errors.
     times, budget
-        Take run times, in so many seconds; None: in a tenth of what the errors take.
+        Take run times, in so many seconds; None: a tenth of what the errors take, and at least one.
     cost
         Nanoseconds that each sample costs besides, where the integrand is a renderer's.
     target

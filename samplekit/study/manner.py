@@ -23,7 +23,7 @@ class Manner:
     times
         Take run times.
     budget
-        Seconds for them; None: a tenth of what errors take.
+        Seconds for them; None: a tenth of what errors take, and at least one.
     cost
         Nanoseconds that each sample costs besides.
     target

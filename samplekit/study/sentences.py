@@ -9,6 +9,7 @@ if TYPE_CHECKING:
 
     from samplekit.study.results import Choice, Crossing, Fit, Flip, ToTarget
 
+_MOST_SPANS = 2
 _UNITS = ((1.0, "s"), (1e-3, "ms"), (1e-6, "µs"), (1e-9, "ns"))
 
 
@@ -81,14 +82,16 @@ def _of_sampler(need: ToTarget, needs: Sequence[ToTarget], choices: Sequence[Cho
         text += f"; its mse falls as N^{fit.slope.estimate:.2f}"
         if fit.theory is not None:
             text += f" (theory: N^{fit.theory:g})"
-    own = [choice for choice in choices if choice.sampler == need.sampler]
-    if own:
-        spans = [
-            f"from {seconds_in_words(choice.seconds)}"
-            + (f" to {seconds_in_words(choice.until)}" if choice.until is not None else " on")
-            for choice in _joined(choices, need.sampler)
+    spans = _joined(choices, need.sampler)
+    if len(spans) > _MOST_SPANS:
+        text += f"; the best choice for budgets in {len(spans)} ranges from {seconds_in_words(spans[0].seconds)} on"
+    elif spans:
+        written = [
+            f"from {seconds_in_words(span.seconds)}"
+            + (" on" if span.until is None else f" to {seconds_in_words(span.until)}")
+            for span in spans
         ]
-        text += f"; the best choice for budgets {', '.join(spans)}"
+        text += f"; the best choice for budgets {', '.join(written)}"
     return text + "."
 
 

@@ -35,8 +35,8 @@ if TYPE_CHECKING:
 
     Progress = Callable[[str, int, int], None]
 
-_SHARE = 0.1
-"""Of the time that errors take, for laps, unless a budget is given."""
+_SHARE, _LEAST = 0.1, 1.0
+"""Of the time that errors take, for laps, and seconds in any case, unless a budget is given."""
 
 
 class Study:
@@ -98,7 +98,7 @@ class Study:
         began = time.perf_counter()
         self._errors(seconds, progress)
         if self._manner.times:
-            share = _SHARE * (time.perf_counter() - began)
+            share = max(_SHARE * (time.perf_counter() - began), _LEAST)
             self._laps(courses, share if self._manner.budget is None else self._manner.budget, progress)
 
     def _set_up(self, progress: Progress) -> None:

@@ -7,7 +7,8 @@ import pytest
 from samplekit.study import pool
 from samplekit.study.results import SCHEMA, from_json
 
-ASK = ("compare", "-s", "random", "-s", "jittered", "--scene", "disk", "--spp", "4,13", "--trials", "6", "--size", "1")
+ASK = ("compare", "-s", "random", "-s", "jittered", "--scene", "disk", "--spp", "4,13")
+ASK += ("--trials", "6", "--size", "1", "--budget", "0")
 
 
 def test_table(command):

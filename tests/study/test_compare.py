@@ -77,7 +77,9 @@ def test_results_do_not_depend_on_threads_and_blocks():
 
 
 def test_times_are_taken_apart_and_cost_is_added():
-    found = samplekit.compare(["random", "sobol+owen"], "gaussian", [16, 256], trials=4, size=(1, 1), cost=1000.0)
+    found = samplekit.compare(
+        ["random", "sobol+owen"], "gaussian", [16, 256], trials=4, size=(1, 1), cost=1000.0, budget=0.0
+    )
     for row in found.rows:
         times = row.times
         assert times.laps >= 5
@@ -90,7 +92,7 @@ def test_times_are_taken_apart_and_cost_is_added():
 
 def test_files_of_a_study(tmp_path):
     ask = (["random", "jittered"], ["disk", "zoneplate:k=40"], [4, 5])
-    found = samplekit.compare(*ask, trials=3, size=(20, 12), seed=4, output=tmp_path / "out")
+    found = samplekit.compare(*ask, trials=3, size=(20, 12), seed=4, budget=0.0, output=tmp_path / "out")
     folder = tmp_path / "out"
     assert from_json((folder / "results.json").read_text(encoding="utf-8")) == found
     with (folder / "results.csv").open(encoding="utf-8", newline="") as file:
