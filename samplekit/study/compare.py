@@ -56,7 +56,8 @@ def compare(
         From 0 to 2^64 - 1.
     threads, processes
         That share the work; errors do not depend on it. None: as many threads as there are processors. Times are
-        always those of one thread.
+        always those of one thread. Processes begin by importing the calling script: it needs the usual guard,
+        ``if __name__ == "__main__":``.
     dask
         Address of a Dask scheduler whose workers compute the errors.
     times, budget

@@ -19,6 +19,10 @@ if TYPE_CHECKING:
 MOST_BATCHES = 1024
 _SECONDS = 0.4
 """Of a job: what an interrupt throws away at most."""
+_MOST_TRIALS = 2**18
+"""Of a job: some 20 MB."""
+_ARRAYS = 6
+"""Of the size of an image, for each count that a job has at once."""
 
 
 @dataclass(frozen=True)
@@ -33,6 +37,11 @@ class Job:
     batch: int
     size: tuple[int, int]
     seed: int
+
+    @property
+    def memory(self) -> int:
+        """Bytes that the job takes, roughly."""
+        return _ARRAYS * 8 * len(self.counts) * self.size[0] * self.size[1]
 
     @property
     def samples(self) -> int:
@@ -83,7 +92,7 @@ def split(
         unit = max(batch, 2)
         counts = tuple(cell.count for cell in group)
         for start, stop in missing(largest):
-            length = min(_SECONDS / max(seconds.get(largest, 0.0), 1e-9), (stop - start) / workers)
+            length = min(_SECONDS / max(seconds.get(largest, 0.0), 1e-9), (stop - start) / workers, _MOST_TRIALS)
             length = max(1, round(length / unit)) * unit
             for first in range(start, stop, length):
                 job = Job(*largest.pair, counts, first, min(first + length, stop), batch, request.size, request.seed)

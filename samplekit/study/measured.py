@@ -104,7 +104,7 @@ class Row:
     reference_error, reference_kind
         Bound of the reference's error in any pixel, 0: exact; in words.
     invalid_pixels
-        Pixels of all trials whose estimate was not finite; they are left out of the errors.
+        Pixels of all trials whose error or its square was not finite; they are left out of the errors.
     times
         None where none were taken.
     time

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from samplekit.errors import UsageError
 from samplekit.integration.plan import MOST_SAMPLES
+from samplekit.memory import check_memory
 from samplekit.parsing import check_positive
 from samplekit.sampling.realizations import check_seed
 
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
 UNIT_SQUARE = (1, 1)
 """The size of a study of the unit square as one pixel."""
 _MOST_TRIALS = 2**24
+_BYTES_PER_PIXEL = 16 * 8
 
 
 @dataclass(frozen=True)
@@ -81,6 +83,8 @@ def checked_request(
     ------
     UsageError
         Nothing to compare, something twice, or numbers out of range.
+    SamplekitError
+        There is not the memory for such images.
     """
     for what, names in (("scene", scenes), ("sampler", samplers)):
         if not names:
@@ -106,4 +110,5 @@ def checked_request(
         raise UsageError(
             f"{asked.pixels} pixels x {asked.counts[-1]} samples = {samples:.3g}: at most {MOST_SAMPLES:.3g} in a trial"
         )
+    check_memory(_BYTES_PER_PIXEL * asked.pixels, f"images of {asked.pixels} pixels", ": choose a smaller --size")
     return asked

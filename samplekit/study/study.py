@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from samplekit.errors import UsageError
 from samplekit.integration.threads import check_threads
+from samplekit.memory import check_memory
 from samplekit.study import ranking
 from samplekit.study.cells import lay_out
 from samplekit.study.cluster import Cluster
@@ -57,12 +58,13 @@ class Study:
         self._request, self._manner, self._subjects = request, manner, subjects
         self._cells, self._left_out = lay_out(request, subjects)
         self._machine, self._versions = describe_machine(), known_versions()
-        self._cluster = Cluster(manner.dask) if manner.dask is not None else None
         if folder is not None:
             check_folder(folder, resume=resume)
         self._store = Store(folder)
+        self._cluster: Cluster | None = None
         try:
             self._store.begin(request.plain(), self._versions)
+            self._cluster = Cluster(manner.dask) if manner.dask is not None else None
         except BaseException:
             self.close()
             raise
@@ -127,6 +129,9 @@ class Study:
         jobs = split(
             self._request, self._cells, lambda cell: gaps(self._store.ranges(cell), cell.trials), seconds, workers
         )
+        if self._cluster is None and jobs:
+            needed = workers * max(job.memory for job in jobs)
+            check_memory(needed, f"images on {workers} threads or processes", ": ask for fewer with --threads")
         total = sum(job.samples for job in jobs)
         done, lock = 0, threading.Lock()
 
