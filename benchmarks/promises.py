@@ -36,7 +36,7 @@ DISTANCE_COUNTS = (2, 3, 5, 8, 13, 16, 64, 97, 100, 144, 256, 987, 1000, 1024)
 ROUNDING = 2.0**-51
 OPTIONS = (
     *("halton:scramble=digits", "halton:scramble=owen", "faure:base=2", "faure:base=3", "faure:base=7"),
-    *("van-der-corput:base=3", "van-der-corput:base=6", "van-der-corput:base=10", "z-sobol:orders=all"),
+    *("van-der-corput:base=3", "van-der-corput:base=6", "van-der-corput:base=10", "z-sobol:orders=random"),
     *("orthogonal-array:offset=jittered", "orthogonal-array:offset=multi-jittered"),
     *("orthogonal-array:strength=3", "orthogonal-array:strength=3,offset=multi-jittered"),
     *("poisson-disk:radius=0.75", "poisson-disk:method=elimination", "rank1:vector=hkkn"),
@@ -114,7 +114,7 @@ class Sweep:
                     ties for promise in self.sampler.spec.promises for ties in promised_grids(promise, count, dims)
                 ]
                 if not grids:
-                    return
+                    break
                 for values in sets(self.sampler, count, dims, self.realizations, 0, seed=count):
                     for ties in grids:
                         holds = any(broken_cell(values, grid) is None for grid in ties)

@@ -208,9 +208,9 @@ SAMPLERS = (
         options=(
             Option(
                 "orders",
-                "complementary",
-                "of four quadrants of pixels: those in which neighbours complement each other, or all",
-                choices=("complementary", "all"),
+                "matched",
+                "of the pixels: one in which nearby pixels complement each other along edges, or a random one",
+                choices=("matched", "random"),
             ),
         ),
         counts="powers-of-2",
@@ -219,7 +219,7 @@ SAMPLERS = (
             GridStrata(block=2),
             *(Net(dims=(first, first + 1), sequence=False) for first in (0, 2, 4, 6)),
         ),
-        screen_block=16,
+        screen_block=64,
     ),
     SamplerSpec(
         "file",

@@ -9,12 +9,14 @@ of a pixel are shuffled.
 
 Two things differ from the paper:
 
-- Tiles of 16 x 16 pixels have an order and a scrambling of their own. A sequence for the whole image does no better
-  after a blur of 2 pixels, but with more than one sample its one scrambling suits the whole image or does not: the mean
-  squared error of a smooth image then varied by a factor of 50 from seed to seed. Indices so have at most 40 bits, and
-  no tile repeats another.
-- The random order of four quadrants is one of the 12 in which neighbours complement each other; ``orders=all`` takes
-  all 24. Smooth images come out the same, upright and level edges better by a third.
+- Tiles of 64 x 64 pixels have a scrambling of their own. A sequence for the whole image does no better after a blur of
+  2 pixels, but with more than one sample its one scrambling suits the whole image or does not: the mean squared error
+  of a smooth image then varied by a factor of 50 from seed to seed. Indices so have at most 44 bits, and no tile
+  repeats another.
+- The first pair of dimensions, the place within the pixel, has one order of the pixels, chosen so that nearby pixels
+  complement each other along edges; ``orders=random`` takes a random order, as in the paper and as the other pairs
+  have. After a blur of 2 pixels that leaves 0.6 of the mean squared error of independent pixels on disks, where a
+  random order leaves 0.9, and 0.02 on a bell, where it leaves 0.1.
 """
 
 from __future__ import annotations
@@ -27,7 +29,7 @@ from samplekit.numerics.kernel import helper, kernel, reverse_bits32
 from samplekit.sampling.hashing import TWO_M32, dimension_key, hash_index, mix64, second_key
 from samplekit.sampling.owen import owen_addend, owen_factor, owen_key, owen_tail, scramble_reversed, tail_value
 from samplekit.sampling.permutation import SHUFFLED, scatter, shuffle
-from samplekit.sampling.pixel_order import ALL_ORDERS, COMPLEMENTARY_ORDERS, place_of_pixel
+from samplekit.sampling.pixel_order import TILE_LEVELS, matched_place, random_place
 from samplekit.sampling.realizations import seed_word
 from samplekit.sampling.sampler import Sampler
 
@@ -41,8 +43,6 @@ _U64 = np.uint64
 _TILE = _U64(0x47B5481DBEFA4FA4)
 _ORDER = _U64(0x8EB44A8768581511)
 _SHUFFLE = _U64(0xDB0C2E0D64F98FA7)
-TILE_LEVELS = 4
-"""Tiles of 2^4 x 2^4 pixels have a sequence of their own."""
 
 
 @helper
@@ -68,13 +68,13 @@ def _scramble(row: NDArray[np.float64], digits: NDArray[np.uint32], beyond: np.u
         row[i] = np.float64(scramble_reversed(_U32(digits[i]), addend, factor)) * TWO_M32 + tail
 
 
-@kernel("void(float64[:,:,::1], int64[::1], int64[::1], uint64, int64[:,::1], int64, int64)")
+@kernel("void(float64[:,:,::1], int64[::1], int64[::1], uint64, boolean, int64, int64)")
 def _fill(
     out: NDArray[np.float64],
     xs: NDArray[np.int64],
     ys: NDArray[np.int64],
     seed: np.uint64,
-    orders: NDArray[np.int64],
+    matched: bool,
     bits: int,
     start: int,
 ) -> None:
@@ -91,7 +91,10 @@ def _fill(
             order[i] = _U32(start + i)
         for d in range(0, dims, 2):
             pair = dimension_key(tile, d)
-            place = place_of_pixel(x & within, y & within, TILE_LEVELS, mix64(pair ^ _ORDER), orders)
+            if d == 0 and matched:
+                place = matched_place(x & within, y & within)
+            else:
+                place = random_place(x & within, y & within, mix64(pair ^ _ORDER))
             if d > 0:
                 # Padded pairs: a shuffle of the pixel's own, else its samples would meet in the same order in all.
                 key = hash_index(pair ^ _SHUFFLE, second_key(pair), _U64(place))
@@ -121,14 +124,13 @@ class ZSobol(Sampler):
     Parameters
     ----------
     orders
-        ``complementary``: four quadrants are visited in an order in which neighbours complement each other; ``all``:
-        in any.
+        ``matched``: in the first pair of dimensions nearby pixels complement each other; ``random``: in none.
     """
 
-    def __init__(self, orders: str = "complementary") -> None:
-        self._orders = ALL_ORDERS if orders == "all" else COMPLEMENTARY_ORDERS
+    def __init__(self, orders: str = "matched") -> None:
+        self._matched = orders == "matched"
 
     def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`Sampler.fill`."""
         seed = seed_word(realizations.seed) ^ _TILE
-        _fill(out, realizations.x, realizations.y, seed, self._orders, count.bit_length() - 1, start)
+        _fill(out, realizations.x, realizations.y, seed, self._matched, count.bit_length() - 1, start)

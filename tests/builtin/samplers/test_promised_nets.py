@@ -15,7 +15,7 @@ TEXTS = [
     for suffix in ("", "+owen", "+xor")
 ] + [
     *("halton:scramble=digits", "halton:scramble=owen", "faure:base=2+owen", "faure:base=3", "faure:base=7+xor"),
-    *("owen-sobol", "pmj02", "z-sobol", "z-sobol:orders=all"),
+    *("owen-sobol", "pmj02", "z-sobol", "z-sobol:orders=random"),
 ]
 BLOCKS = (0, 1, 5)
 WORK = 1 << 20
