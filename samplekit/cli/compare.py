@@ -113,7 +113,7 @@ def compare(
     subjects = Subjects()
     request = checked_request(
         [subjects.scene(scene).text for scene in scenes],
-        [subjects.sampler(sampler).text for sampler in samplers],
+        [subjects.studied(sampler, width_height).text for sampler in samplers],
         counts,
         trial_count,
         width_height,

@@ -45,7 +45,8 @@ def compare(
     Parameters
     ----------
     samplers, scenes
-        As on the command line; one or several of each.
+        As on the command line; one or several of each. Over the unit square, samplers that reuse sets make every
+        realisation afresh, which their rows say: ``ccvt:bank=0``.
     spp
         Samples of a pixel. A count that a sampler cannot make is replaced by the nearest below, which the row says.
     trials
@@ -125,7 +126,7 @@ def _request(
     scene_names = [scenes] if isinstance(scenes, str) else list(scenes)
     return checked_request(
         [subjects.scene(name).text for name in scene_names],
-        [subjects.sampler(name).text for name in sampler_names],
+        [subjects.studied(name, size).text for name in sampler_names],
         [spp] if isinstance(spp, int) else list(spp),
         trials,
         size,

@@ -68,18 +68,41 @@ def _between(first: float, second: float, share: float) -> float:
 
 
 def front(rows: Sequence[Row]) -> list[Choice]:
-    """The rows that no other beats in both time and error, as the choices for rising budgets."""
+    """The rows that no other beats in both time and error, as the choices for rising budgets.
+
+    A slower row takes over where its error is smaller by more than the intervals leave open; it takes the place of the
+    last choice where the quartiles of their times overlap. So noise alone does not make samplers take turns.
+    """
     choices: list[Choice] = []
     for scene in dict.fromkeys(row.scene for row in rows):
         timed = [row for row in rows if row.scene == scene and row.time is not None and row.mse.estimate is not None]
-        best: list[tuple[Row, float, float]] = []
+        best: list[Row] = []
         for row in sorted(timed, key=lambda row: (row.time or 0.0, row.mse.estimate or 0.0)):
-            if not best or (row.mse.estimate or 0.0) < best[-1][1]:
-                best.append((row, row.mse.estimate or 0.0, row.time or 0.0))
-        for index, (row, mse, seconds) in enumerate(best):
-            until = best[index + 1][2] if index + 1 < len(best) else None
-            choices.append(Choice(scene, row.sampler, row.count, mse, seconds, until))
+            if best and not _clearly_better(row, best[-1]):
+                continue
+            while best and _as_fast(row, best[-1]):
+                best.pop()
+            best.append(row)
+        for index, row in enumerate(best):
+            until = best[index + 1].time if index + 1 < len(best) else None
+            choices.append(Choice(scene, row.sampler, row.count, row.mse.estimate or 0.0, row.time or 0.0, until))
     return choices
+
+
+def _clearly_better(row: Row, other: Row) -> bool:
+    estimate, bar = row.mse.estimate or 0.0, other.mse.estimate or 0.0
+    high = row.mse.high if row.mse.high is not None else estimate
+    low = other.mse.low if other.mse.low is not None else bar
+    return estimate < bar and high < low
+
+
+def _as_fast(row: Row, other: Row) -> bool:
+    """Whether the quartiles of the times overlap, ``row`` being the slower one."""
+    if row.times is None or other.times is None:
+        return False
+    spread, earlier = row.times.total.cpu, other.times.total.cpu
+    added = (row.time or 0.0) - spread.median, (other.time or 0.0) - earlier.median
+    return spread.lower + added[0] <= earlier.upper + added[1]
 
 
 @dataclass(frozen=True)

@@ -38,6 +38,15 @@ class Subjects:
         """The sampler that is written ``text``."""
         return self._once(("sampler", text), lambda: configured_sampler(text))
 
+    def studied(self, text: str, size: tuple[int, int]) -> ConfiguredSampler:
+        """The sampler that is written ``text``, as a study of such images measures it.
+
+        Over the unit square, where the variance itself is studied, every realisation is made afresh, also by samplers
+        whose images reuse sets: their text then says so.
+        """
+        sampler = self.sampler(text)
+        return sampler.fresh() if size == (1, 1) else sampler
+
     def prepared(
         self, text: str, count: int, dims: int, progress: Callable[[int, int], None] = lambda _, __: None
     ) -> ConfiguredSampler:

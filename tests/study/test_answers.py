@@ -1,12 +1,13 @@
 """Answers: targets, the front, flips by cost and crossings, against what can be worked out by hand."""
 
+from dataclasses import replace
 from itertools import pairwise
 
 import pytest
 
 from samplekit.study.crossings import crossings
 from samplekit.study.ranking import flips, front, targets, times_to_target
-from samplekit.study.results import Interval, Row
+from samplekit.study.results import Clock, Interval, Row, Spread, Times
 from samplekit.study.sentences import seconds_in_words, sentences
 
 
@@ -99,3 +100,14 @@ def test_sentences_name_the_numbers():
 )
 def test_times_in_words(seconds, text):
     assert seconds_in_words(seconds) == text
+
+
+def test_front_does_not_take_turns_by_noise():
+    clock = Clock(Spread(1.0, 0.9, 1.1), Spread(1.0, 0.9, 1.1))
+    one = row("one", 1, 0.1, 1.0)
+    same_error = row("two", 1, 0.0999, 1.01)
+    better = row("one", 4, 0.02, 2.0)
+    as_fast = replace(row("two", 4, 0.01, 1.05), times=Times(clock, clock, clock, 0.0, 0.0, 9))
+    assert [choice.sampler for choice in front([one, same_error, better])] == ["one", "one"]
+    timed = replace(one, times=Times(clock, clock, clock, 0.0, 0.0, 9))
+    assert [(choice.sampler, choice.count) for choice in front([timed, as_fast])] == [("two", 4)]

@@ -147,3 +147,11 @@ def test_killed_study_goes_on_to_the_same_results(tmp_path):
     assert errors_alone(resumed) == errors_alone(whole)
     assert resumed.fits == whole.fits
     assert json.loads((folder / "results.json").read_text(encoding="utf-8"))["complete"] is True
+
+
+def test_the_unit_square_is_studied_with_fresh_sets():
+    found = samplekit.compare(["lloyd:steps=2", "random"], "disk", 16, trials=4, size=(1, 1), times=False)
+    assert found.samplers == ["lloyd:steps=2,bank=0", "random"]
+    assert [row.sampler for row in found.rows] == found.samplers
+    found = samplekit.compare("lloyd:steps=2", "disk", 16, trials=4, size=(4, 4), times=False)
+    assert found.samplers == ["lloyd:steps=2"]
