@@ -14,6 +14,7 @@ import typer
 
 from samplekit import __version__
 from samplekit.builtin.declarations.commands import COMMANDS
+from samplekit.cli import interrupts
 from samplekit.cli.plugin_commands import PluginGroup
 from samplekit.cli.single_options import SingleOptionsCommand
 from samplekit.errors import SamplekitError, UsageError
@@ -74,7 +75,8 @@ def _nowhere() -> TextIO:
 def run(arguments: list[str]) -> int:
     """Run one command and return its exit status: 0 done, 1 failed, 2 wrong use, 3 a check failed, 130 interrupted."""
     try:
-        result = app(args=arguments, prog_name="samplekit", standalone_mode=False)
+        with interrupts.remembered():
+            result = app(args=arguments, prog_name="samplekit", standalone_mode=False)
         return result if isinstance(result, int) else DONE
     except (UsageError, _TyperUsageError) as error:
         return _failed(_message(error), WRONG_USE, arguments)

@@ -6,6 +6,8 @@ import sys
 import time
 from typing import Any
 
+from samplekit.cli import interrupts
+
 
 class Progress:
     """Called with the numbers done and to do; shows a bar once a second has passed."""
@@ -34,7 +36,8 @@ class Progress:
             self._bar = None
 
     def __call__(self, done: int, total: int) -> None:
-        """Show the state; a bar goes when all is done."""
+        """Show the state; a bar goes when all is done. Raises KeyboardInterrupt if one was received, and lost."""
+        interrupts.check()
         if done >= total:
             self._remove()
             return

@@ -1,12 +1,15 @@
 """The bar on a terminal: there while something is done, gone when it is done."""
 
+import contextlib
 import itertools
+import signal
 import sys
 import time
 
 import pytest
 
 from samplekit.cli.progress import Progress
+from samplekit.integration import renderer
 
 
 @pytest.fixture
@@ -26,3 +29,21 @@ def test_a_bar_goes_when_all_is_done_and_not_when_the_next_is(bar):
     assert not bar.shown
     bar(1, 2)
     assert bar.shown
+
+
+def test_an_interrupt_that_was_lost_ends_the_work_all_the_same(command, tmp_path, monkeypatch):
+    """Python drops exceptions that are raised within callbacks of its own; this one is dropped here."""
+
+    def interrupt_and_lose_it(*_):
+        with contextlib.suppress(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(renderer, "_fill_constant", interrupt_and_lose_it)
+        # Whoever runs the tests may have a handler of its own.
+        patched.setattr(signal, "getsignal", lambda _: signal.default_int_handler)
+        done = command("render", "--sampler", "random", "--spp", "4", "--size", "64")
+    assert done == (130, "", "")
+    assert list(tmp_path.iterdir()) == []
+    # It is forgotten with the command.
+    assert command("render", "--sampler", "random", "--spp", "4", "--size", "8").status == 0
