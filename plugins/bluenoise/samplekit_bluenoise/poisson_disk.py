@@ -47,6 +47,6 @@ class PoissonDisk(WholeSets):
             )
 
     def refine(self, spec: SamplerSpec) -> SamplerSpec:
-        """Darts promise their distance, elimination promises none."""
-        promises = (MinimumDistance(self._radius),) if self._method == "darts" else ()
+        """Darts promise their distance if there is one, elimination promises none."""
+        promises = (MinimumDistance(self._radius),) if self._method == "darts" and self._radius > 0.0 else ()
         return replace(spec, promises=promises)

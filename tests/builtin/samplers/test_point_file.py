@@ -144,6 +144,6 @@ def test_files_that_cannot_be_used_are_one_line(tmp_path):
         with pytest.raises(UsageError, match=f"cannot read .*{message}"):
             samplekit.sampler("file", path=str(tmp_path / name))
     (tmp_path / "a.npy").write_bytes(b"\x93NUMPY\x01\x00")
-    with pytest.raises(SamplekitError, match=r"^cannot read .*a\.npy: it is damaged") as error:
+    with pytest.raises(SamplekitError, match=r"cannot read .*a\.npy: it is damaged") as error:
         samplekit.sampler("file", path=str(tmp_path / "a.npy"))
     assert not isinstance(error.value, UsageError)
