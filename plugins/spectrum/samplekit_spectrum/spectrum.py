@@ -44,6 +44,13 @@ class Spectrum:
         The seed.
     frequencies
         A ``Cube`` of frequencies or ``Listed`` ones.
+
+    Examples
+    --------
+    >>> from samplekit_spectrum import power
+    >>> spectrum = power("jittered", 16, realizations=10, max_frequency=4)
+    >>> spectrum.mean.shape
+    (9, 9)
     """
 
     sampler: str

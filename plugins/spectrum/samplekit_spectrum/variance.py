@@ -127,28 +127,36 @@ def predicted_variance(
 
 
 def _trimmed(integrand: Integrand, strata: list[Stratum]) -> list[Region]:
-    """The regions without what adds less than a thousandth, so that smooth integrands need few frequencies."""
+    """The regions up to where what lies beyond adds less than a thousandth: smooth integrands need few frequencies.
+
+    Nothing is left out nearer to DC, be it ever so dark: the energy that is missing is taken to be as bright as what is
+    farthest out.
+    """
     total = sum(float(stratum.totals.mean()) for stratum in strata)
-    regions_ = [region for stratum in strata for region in stratum.regions]
-    means = [moments.mean for stratum in strata for moments in stratum.moments]
+    pairs = [pair for stratum in strata for pair in zip(stratum.regions, stratum.moments, strict=True)]
+    needed = {region.view.axes: _needed(pairs, region.view.axes, _NEGLIGIBLE * total) for region, _ in pairs}
     kept = []
-    for region, mean in zip(regions_, means, strict=True):
-        cube = region.cube
-        terms = region.weights * mean
-        if float(terms.sum()) < _NEGLIGIBLE * total:
-            continue
-        size = np.abs(cube.vectors(0, cube.half)).max(axis=1)
-        by_size = np.bincount(size, terms)
-        beyond = by_size.sum() - np.cumsum(by_size)
-        needed = int(np.argmax(beyond <= _NEGLIGIBLE * total))
-        needed = max(2 ** math.ceil(math.log2(max(needed, 8))), region.inner + 1)
-        if needed >= cube.reach:
+    for region, _ in pairs:
+        axes, inner = region.view.axes, region.inner
+        reach = min(needed[axes], region.cube.reach)
+        if reach == region.cube.reach:
             kept.append(region)
-        elif cube.dims == 2:
-            kept.append(square(integrand, region.inner, needed))
-        else:
-            kept.append(axis(integrand, region.view.axes[0], region.inner, needed))
-    return kept or regions_
+        elif reach > inner:
+            kept.append(square(integrand, inner, reach) if len(axes) == 2 else axis(integrand, axes[0], inner, reach))
+    return kept or [region for region, _ in pairs]
+
+
+def _needed(pairs: list[tuple[Region, Moments]], axes: tuple[int, ...], negligible: float) -> int:
+    """A power of 2 beyond which the regions on some axes add no more than ``negligible``; 0 if they never do."""
+    by_size = np.zeros(1 + max(region.cube.reach for region, _ in pairs if region.view.axes == axes))
+    for region, moments in pairs:
+        if region.view.axes == axes:
+            size = np.abs(region.cube.vectors(0, region.cube.half)).max(axis=1)
+            by_size += np.bincount(size, region.weights * moments.mean, by_size.size)
+    if by_size.sum() <= negligible:
+        return 0
+    beyond = by_size.sum() - np.cumsum(by_size)
+    return int(2 ** math.ceil(math.log2(max(int(np.argmax(beyond <= negligible)), 8))))
 
 
 def _summed(source: Source, integrand: Integrand, strata: list[Stratum], *, fixed: bool) -> Predicted:

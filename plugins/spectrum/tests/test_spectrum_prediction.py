@@ -13,6 +13,7 @@ from samplekit_spectrum.measurement import summarize
 from scipy.stats import chi2
 
 import samplekit
+from samplekit import Sampler
 from samplekit.errors import UsageError
 from samplekit.sampling.realizations import Realizations
 
@@ -36,6 +37,24 @@ def test_blue_noise_is_predicted_from_fresh_sets(sampler, count):
     assert 0.8 < row.ratio_low <= 1.0 <= row.ratio_high < 1.25
     # 40 shifts of each of 50 sets; natively a set is an estimate.
     assert (row.measured.trials, row.native.trials) == (2000, 50)
+
+
+def test_a_centre_as_dark_as_it_may_be_is_not_left_out():
+    """Grids of 32 x 32 under a shift of each realisation: all below 32 is 0, and the rest is the shifted grid's."""
+
+    class Grids(Sampler):
+        def draw(self, count, dims, rng):
+            side = math.isqrt(count)
+            x, y = np.meshgrid(np.arange(side), np.arange(side))
+            return (np.stack([x.ravel(), y.ravel()], axis=1) + rng.random(2)) / side
+
+    grids = samplekit.sampler("multi-jittered")
+    grids._sampler = Grids()
+    row = predict(grids, "disk", 1024, trials=4000, realizations=32, native=False)
+    exact = predict("regular", "disk", 1024, trials=4, native=False).predicted.variance
+    assert 0.85 < row.ratio < 1.15
+    assert row.predicted.tail < 0.7 * row.predicted.variance
+    assert row.predicted.variance - row.predicted.tail < exact < row.predicted.variance + row.predicted.tail_bound
 
 
 def test_a_set_is_shifted_several_times_and_no_tile_changes_that():

@@ -114,9 +114,8 @@ def _crossings(
         dx, dy, sigma = circles[other, 0] - ax, circles[other, 1] - ay, circles[other, 2]
         distance = math.sqrt(dx * dx + dy * dy)
         # Heron's formula in factors: the height of the triangle of both centres and a crossing.
-        product = (
-            (distance + rho + sigma) * (distance + rho - sigma) * (distance - rho + sigma) * (rho + sigma - distance)
-        )
+        product = (distance + rho + sigma) * (distance + rho - sigma)
+        product *= (distance - rho + sigma) * (rho + sigma - distance)
         if other == circle or distance == 0.0 or product <= 0.0:
             continue
         half = math.atan2(math.sqrt(product), distance * distance + (rho - sigma) * (rho + sigma))
