@@ -173,16 +173,37 @@ def estimate(
 
 
 def samplers() -> list[SamplerSpec]:
-    """The declarations of all samplers, sorted by name."""
+    """The declarations of all samplers, sorted by name.
+
+    Examples
+    --------
+    >>> import samplekit
+    >>> [spec.name for spec in samplekit.samplers() if spec.progressive == "every-count"][:2]
+    ['halton', 'r2']
+    """
     return [offer.spec for offer in registry().all("sampler").values()]
 
 
 def scenes() -> list[SceneSpec]:
-    """The declarations of all scenes, sorted by name."""
+    """The declarations of all scenes, sorted by name.
+
+    Examples
+    --------
+    >>> import samplekit
+    >>> [option.name for spec in samplekit.scenes() if spec.name == "zoneplate" for option in spec.options]
+    ['k', 'cx', 'cy', 'pixel-filter']
+    """
     return [offer.spec for offer in registry().all("scene").values()]
 
 
 def plugins() -> list[Plugin]:
-    """All plugins that are installed, also those that failed, with their problems."""
+    """All plugins that are installed, also those that failed, with their problems.
+
+    Examples
+    --------
+    >>> import samplekit
+    >>> "lattice" in [plugin.name for plugin in samplekit.plugins()]
+    True
+    """
     registry().discover()
     return registry().plugins

@@ -200,6 +200,12 @@ def configured_scene(text: str, **options: object) -> ConfiguredScene:
     ------
     UsageError
         An unknown name or option, or a value that an option does not take.
+
+    Examples
+    --------
+    >>> import samplekit
+    >>> samplekit.scene("depth-of-field:aperture=0").dims
+    2
     """
     choice = parse_choice(text, "scene")
     given: dict[str, object] = {**choice.options, **{name.replace("_", "-"): value for name, value in options.items()}}

@@ -24,6 +24,14 @@ class Scene:
         Bound of the error of ``exact`` in any pixel, beyond rounding; 0: exact.
     finite_variance
         Whether the square of the integrand has a finite integral; where not, a standard error means nothing.
+
+    Examples
+    --------
+    >>> import samplekit
+    >>> class Ramp(samplekit.Scene):
+    ...     def value(self, points):
+    ...         x, y = points
+    ...         return x
     """
 
     reference_error: float = 0.0

@@ -174,6 +174,12 @@ def configured_sampler(text: str, **options: object) -> ConfiguredSampler:
     ------
     UsageError
         An unknown name or option, or a value that an option does not take.
+
+    Examples
+    --------
+    >>> import samplekit
+    >>> samplekit.sampler("sobol+owen").spec.randomized
+    True
     """
     choice = parse_choice(text, "sampler")
     given: dict[str, object] = {**choice.options, **{name.replace("_", "-"): value for name, value in options.items()}}

@@ -38,6 +38,12 @@ class Realizations:
     blocks
         Sizes of the blocks that the dimensions form by purpose, such as (2, 2, 1) for pixel, lens and time; empty when
         nothing is known of them.
+
+    Examples
+    --------
+    >>> from samplekit import Realizations
+    >>> len(Realizations.of_trials(0, 5, seed=7).keys)
+    5
     """
 
     keys: NDArray[np.uint64]

@@ -30,6 +30,13 @@ class Sampler:
     Values may depend on nothing but the options, the realisation (its key, or its pixel and the seed; the blocks of its
     dimensions), the index, the dimension, and, where the sampler is not progressive, the count and the number of
     dimensions.
+
+    Examples
+    --------
+    >>> import samplekit
+    >>> class Mine(samplekit.Sampler):
+    ...     def draw(self, count, dims, rng):
+    ...         return rng.random((count, dims))
     """
 
     def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:

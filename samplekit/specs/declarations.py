@@ -139,6 +139,13 @@ class SamplerSpec(_Spec):
         expected spectra and variances set them.
     expected_failures
         Check name to reason, for what is known not to hold.
+
+    Examples
+    --------
+    >>> from samplekit import LatinStrata, SamplerSpec
+    >>> spec = SamplerSpec("mine", "mine.points:Mine", "my own points", dimensions=(2, 2), promises=(LatinStrata(),))
+    >>> spec.progressive, spec.counts
+    ('no', 'any')
     """
 
     dimensions: tuple[int, int | None] = field(default=(1, None), kw_only=True)
@@ -217,6 +224,12 @@ class RandomizerSpec(_Spec):
 
     ``keeps`` names the kinds of promise that survive it: ``net``, ``latin``, ``grid``, ``orthogonal-array``,
     ``distance``; ``largest_index`` is that of a point whose digits it can still tell apart.
+
+    Examples
+    --------
+    >>> from samplekit import RandomizerSpec
+    >>> RandomizerSpec("flip", "mine.flip:Flip", "mirror each dimension or not", keeps=("net", "latin")).keeps
+    ('net', 'latin')
     """
 
     keeps: tuple[str, ...] = field(default=(), kw_only=True)
@@ -258,6 +271,13 @@ class SceneSpec(_Spec):
     ``samplekit stability`` sweeps.
 
     Every scene with pixel dimensions also takes the option ``pixel-filter``, which it never sees itself.
+
+    Examples
+    --------
+    >>> from samplekit import Option, SceneSpec
+    >>> spec = SceneSpec("lamp", "lamp.scene:Lamp", "light of a lamp", options=(Option("height", 0.3, "of the lamp"),))
+    >>> dict(spec.purposes)
+    {'pixel': 2}
     """
 
     purposes: tuple[tuple[Purpose, int], ...] = field(default=(("pixel", 2),), kw_only=True)
@@ -280,7 +300,14 @@ class SceneSpec(_Spec):
 
 @dataclass(frozen=True)
 class CommandSpec(_Spec):
-    """What a command declares: ``target`` names a function that typer can turn into a command."""
+    """What a command declares: ``target`` names a function that typer can turn into a command.
+
+    Examples
+    --------
+    >>> from samplekit import CommandSpec
+    >>> CommandSpec("gaps", "mine.command:gaps", "Distances to the nearest neighbours.").name
+    'gaps'
+    """
 
 
 Spec = SamplerSpec | RandomizerSpec | SceneSpec | CommandSpec

@@ -53,6 +53,12 @@ class Option:
         The words that a string option takes; empty for free text.
     required
         It must be given: ``default`` tells its type alone.
+
+    Examples
+    --------
+    >>> from samplekit import Option
+    >>> Option("radius", 0.3, "of the disk", minimum=0.0).parse("0.25")
+    0.25
     """
 
     name: str

@@ -23,6 +23,12 @@ class Net:
     """Promise: the projection on ``dims`` is a (t, m, s)-net in ``base`` for every power of the base.
 
     ``sequence``: every later block of a power of the base is a net as well ((t, s)-sequence).
+
+    Examples
+    --------
+    >>> from samplekit import Net
+    >>> Net((0, 1), base=2, t=0, sequence=True).dims
+    (0, 1)
     """
 
     dims: tuple[int, ...] = (0, 1)
@@ -39,7 +45,14 @@ class Net:
 
 @dataclass(frozen=True)
 class LatinStrata:
-    """Promise: in each of ``dims`` (None: in all) every interval [i/N, (i+1)/N) holds exactly one of the N points."""
+    """Promise: in each of ``dims`` (None: in all) every interval [i/N, (i+1)/N) holds exactly one of the N points.
+
+    Examples
+    --------
+    >>> from samplekit import LatinStrata
+    >>> LatinStrata(dims=(0,))
+    LatinStrata(dims=(0,))
+    """
 
     dims: tuple[int, ...] | None = None
     keyword = "latin"
@@ -56,6 +69,12 @@ class GridStrata:
     """Promise: each cell of the grid that the count factorises into holds exactly one point.
 
     ``block``: number of dimensions that one grid spans; None: all of them.
+
+    Examples
+    --------
+    >>> from samplekit import GridStrata
+    >>> GridStrata(block=2)
+    GridStrata(block=2)
     """
 
     block: int | None = None
@@ -69,7 +88,14 @@ class GridStrata:
 
 @dataclass(frozen=True)
 class OrthogonalArray:
-    """Promise: every ``strength`` dimensions project onto one point in each cell of their grid."""
+    """Promise: every ``strength`` dimensions project onto one point in each cell of their grid.
+
+    Examples
+    --------
+    >>> from samplekit import OrthogonalArray
+    >>> OrthogonalArray(strength=2).strength
+    2
+    """
 
     strength: int = 2
     keyword = "orthogonal-array"
@@ -80,7 +106,14 @@ class OrthogonalArray:
 
 @dataclass(frozen=True)
 class MinimumDistance:
-    """Promise: no two points are closer than ``fraction`` of the densest packing's distance on the torus."""
+    """Promise: no two points are closer than ``fraction`` of the densest packing's distance on the torus.
+
+    Examples
+    --------
+    >>> from samplekit import MinimumDistance
+    >>> MinimumDistance(0.7).fraction
+    0.7
+    """
 
     fraction: float
     keyword = "distance"

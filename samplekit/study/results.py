@@ -67,6 +67,13 @@ class Results:
         Files relative to ``results.json``.
     crossings
         Scene by scene, the lowest count first.
+
+    Examples
+    --------
+    >>> import samplekit
+    >>> results = samplekit.compare("random", "disk", [4, 16], trials=8, size=(1, 1), times=False)
+    >>> [row.count for row in results.rows]
+    [4, 16]
     """
 
     command: str

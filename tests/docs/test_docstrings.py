@@ -8,7 +8,8 @@ import samplekit_spectrum
 
 import samplekit
 
-NAMES = [(samplekit, name) for name in samplekit.__all__] + [
+# The marker of hooks is pluggy's.
+NAMES = [(samplekit, name) for name in samplekit.__all__ if name != "hookimpl"] + [
     (samplekit_spectrum, name) for name in samplekit_spectrum.__all__
 ]
 
