@@ -125,7 +125,8 @@ def test_a_reference_takes_no_more_threads_than_were_asked_for(monkeypatch):
     monkeypatch.setenv("SAMPLEKIT_CACHE", "")
     monkeypatch.setattr(pixel_means_module, "ThreadPoolExecutor", Recording)
     # Of 200 x 200 pixels, all of which vary, there are three batches.
-    for threads in (1, 2, 1024):
+    for threads, most in ((1, 1), (2, 2), (1024, 3)):
+        taken.clear()
         samplekit.render("ambient-occlusion", "random", 1, size=(200, 200), threads=threads)
-    assert taken == [1, 2, 3]
+        assert max(taken) == most
     assert default_threads() <= (os.cpu_count() or 1)
