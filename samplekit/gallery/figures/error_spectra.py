@@ -17,7 +17,7 @@ from samplekit.images import diverging
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-SAMPLERS = ("random", "sobol+owen", "z-sobol")
+SAMPLERS = ("random", "z-sobol:orders=random", "z-sobol")
 SCENE, SPP, SIZE = "gaussian:sigma=0.3", 1, 256
 _LEFT, _TOP, _GAP, _SHOWN = 20, 78, 16, 128
 
@@ -69,7 +69,8 @@ FIGURES = [
     Figure(
         "error-white-and-blue",
         "White and blue error",
-        "Three errors: z-sobol's has moved to high frequencies, where the eye, or a blur, no longer sees it.",
+        "Three errors of one size. With random orders of the pixels z-sobol's is blue noise: it has moved to high "
+        "frequencies, where the eye, or a blur, no longer sees it. Its own order leaves less after a blur, in a pattern.",
         f"samplekit render --scene {SCENE} --size {SIZE} --spp {SPP} --sampler z-sobol --output blue.exr"
         " && samplekit spectrum --image blue.exr",
         error_spectra,
