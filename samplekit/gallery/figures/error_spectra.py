@@ -70,7 +70,7 @@ FIGURES = [
         "error-white-and-blue",
         "White and blue error",
         "Three errors of one size. With random orders of the pixels z-sobol's is blue noise: it has moved to high "
-        "frequencies, where the eye, or a blur, no longer sees it. Its own order leaves less after a blur, in a pattern.",
+        "frequencies, where a blur no longer sees it. Its own order leaves less after a blur, as a pattern.",
         f"samplekit render --scene {SCENE} --size {SIZE} --spp {SPP} --sampler z-sobol --output blue.exr"
         " && samplekit spectrum --image blue.exr",
         error_spectra,
