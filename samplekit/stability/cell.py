@@ -200,7 +200,7 @@ def measure(
     return Measured(
         exact=exact,
         reference_error=reference.error,
-        estimate=_mean(errors) + exact if finite else math.nan,
+        estimate=_mean(estimates) if finite else math.nan,
         error=_mean(errors) if finite else math.nan,
         spread=spread if finite else math.nan,
         standard_error=spread / math.sqrt(realizations) if finite else math.nan,
@@ -217,7 +217,9 @@ def measure(
 
 
 def _mean(values: Array) -> float:
-    return math.fsum(values.tolist()) / values.size
+    """The mean, rounded twice; values near the largest float do not overflow their sum."""
+    shrink = 0.5 ** values.size.bit_length() if float(np.abs(values).max()) > 2.0**900 else 1.0
+    return math.fsum((values * shrink).tolist()) / values.size / shrink
 
 
 def _root_mean_square(values: Array) -> float:

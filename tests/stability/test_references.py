@@ -30,6 +30,16 @@ FOUND = {
         (10.814564751671472, 10.81456678258914, -0.33205869059035564, 0.6679413094096444),
         Bound(relative=1e-13),
     ),
+    "the top of a circle, one rounding high: its chord of 2e-8 was taken for nothing": (
+        "ellipse:radius=1,aspect=1,angle=0,cx=1,cy=0.1927524990382628",
+        (1.0000000015161434, 1.0000000093818961, 1.1927524990382627, 1.1927525000382628),
+        Bound(relative=1e-13),
+    ),
+    "two slopes of exponentials far away: an exponent of 700 from a rounded distance": (
+        "oscillating:family=discontinuous,d=6,difficulty=7960.9772921236145,u=0.3541862226197681",
+        (-1.203671710023888, -0.20367171002388806, -1.1920950714820764, -0.19209507148207638),
+        Bound(relative=1e-14),
+    ),
     "the tip of a needle: heights were rounded in units of the box": (
         "ellipse:radius=1,aspect=1.2720578489005833e-06,angle=-1.5291739068579215,cx=1e-05,cy=0.9741634731834521",
         (-0.9996339711490042, -0.9996338665903923, 0.9073805993741505, 1.034586384264209),

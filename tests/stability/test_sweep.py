@@ -44,6 +44,13 @@ def test_a_scene_that_is_constant_is_right(scene):
     assert cell.measured.digits_right > 15
 
 
+def test_the_estimate_is_not_taken_from_the_error():
+    """The ground of a spike is 48 orders of magnitude below its mean."""
+    cell = one("spike:area=1e-12", "random", 64)
+    assert cell.measured.estimate == pytest.approx(1e-30, rel=1e-15)
+    assert cell.measured.error == pytest.approx(-1e18, rel=1e-9)
+
+
 def test_infinite_variance_is_no_standard_error():
     assert one("power:a=0.9", "random", 256).verdict.kind == "infinite variance"
     assert one("power:a=0.25", "random", 256).verdict.kind == "right"

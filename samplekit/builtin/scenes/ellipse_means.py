@@ -203,7 +203,8 @@ def _reach(top: float, bottom: float, rows: Array, columns: Array, ends: Array) 
         right = farthest
     if low <= -peak <= high:
         left = -farthest
-    slack = 2.0**-40 * farthest
+    # At the ellipse's end a height that is off by one rounding moves the ends of a chord by its square root.
+    slack = 2.0**-24 * farthest
     return left - slack, right + slack
 
 

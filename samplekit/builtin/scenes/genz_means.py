@@ -77,10 +77,12 @@ def _along(code: int, a: float, u: float, sides: Sides) -> Array:
     return means
 
 
-@kernel("float64(float64, float64, float64)")
-def _decay(a: float, near: float, width: float) -> float:
-    """Average exp(-a t) over [near, near + width], near >= 0."""
+@kernel("float64(float64, float64, float64, float64)")
+def _decay(a: float, before: float, after: float, width: float) -> float:
+    """Average exp(-a t) over [near, near + width], near = after - before >= 0."""
+    near, near_low = two_difference(after, before)
     exponent, low = two_product(a, near)
+    low += a * near_low
     across = a * width
     return math.exp(-exponent) * (1.0 - low) * (-math.expm1(-across) / across if across > 0.0 else 1.0)
 
@@ -96,18 +98,18 @@ def _factor_means(code: int, a: float, u: float, left: Array, right: Array, out:
             out[i] = angle / (a * width) if a * width > 0.0 else 1.0 / (1.0 + first * first)
         elif code == 4:
             if left[i] >= u:
-                out[i] = _decay(a, left[i] - u, width)
+                out[i] = _decay(a, u, left[i], width)
             elif right[i] <= u:
-                out[i] = _decay(a, u - right[i], width)
+                out[i] = _decay(a, right[i], u, width)
             else:
                 before, after = u - left[i], right[i] - u
-                out[i] = (before * _decay(a, 0.0, before) + after * _decay(a, 0.0, after)) / width
+                out[i] = (before * _decay(a, 0.0, 0.0, before) + after * _decay(a, 0.0, 0.0, after)) / width
         elif left[i] > u or (left[i] == u and width > 0.0):
             out[i] = 0.0
         else:
             end = min(right[i], u)
             share = (end - left[i]) / width if end < right[i] else 1.0
-            out[i] = share * _decay(a, u - end, end - left[i])
+            out[i] = share * _decay(a, end, u, end - left[i])
 
 
 @kernel("void(float64, float64[::1], float64[::1], float64[::1], float64[::1])")
