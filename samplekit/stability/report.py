@@ -114,11 +114,6 @@ def csv_lines(cells: Sequence[Cell]) -> Iterator[str]:
         yield line.getvalue()
 
 
-def files_of(folder: Path, cells: Sequence[Cell]) -> list[Path]:
-    """The files that :func:`write` makes."""
-    return [folder / "stability.csv", *(folder / f"{_file(name)}.png" for name in dict.fromkeys(c.name for c in cells))]
-
-
 def _file(name: str) -> str:
     return name.replace("/", "-")
 
