@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 from typer.core import TyperGroup
 
+from samplekit.cli.panels import arranged
 from samplekit.cli.single_options import SingleOptionsCommand
 from samplekit.errors import SamplekitError, UsageError
 from samplekit.guard import Guard
@@ -28,6 +29,10 @@ _CHOSEN = "samplekit.command-chosen"
 
 class PluginGroup(TyperGroup):
     """The group of all commands: ours first, which nobody can replace, then those that plugins declare."""
+
+    def get_params(self, ctx: Any) -> list[Any]:
+        """Its parameters, arranged for its help."""
+        return arranged(super().get_params(ctx))
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
         """Find the command that was chosen, to be run or completed: only then is its plugin imported."""
@@ -83,7 +88,7 @@ def _made(offer: Offer) -> Any:
             raise guard.blame(f"failed: {reason(error)}") from error
 
     single = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
-    single.command(offer.called, help=_plain(offer.spec.summary), cls=SingleOptionsCommand)(guarded)
+    single.command(offer.called, help=_plain(run.__doc__ or offer.spec.summary), cls=SingleOptionsCommand)(guarded)
     return guard("cannot be set up", lambda: typer.main.get_command(single))
 
 

@@ -1,4 +1,4 @@
-"""Commands in which an option is given once: of two values the last would win, and nobody would be told."""
+"""Commands whose options are given once, since of two values the last would win, and stand together in their help."""
 
 from __future__ import annotations
 
@@ -7,11 +7,16 @@ from typing import Any
 
 from typer.core import TyperCommand, TyperOption
 
+from samplekit.cli.panels import arranged
 from samplekit.errors import UsageError
 
 
 class SingleOptionsCommand(TyperCommand):
     """A command that refuses a second value of an option that takes one."""
+
+    def get_params(self, ctx: Any) -> list[Any]:
+        """Its parameters, arranged for its help."""
+        return arranged(super().get_params(ctx))
 
     def parse_args(self, ctx: Any, args: list[str]) -> Any:
         """Count what is given, then read it."""
