@@ -1,14 +1,6 @@
 """Declarations: plain data, no NumPy. Listing, completing and checking a request never imports an implementation."""
 
-from samplekit.specs.declarations import (
-    API_VERSION,
-    PIXEL_FILTER,
-    CommandSpec,
-    RandomizerSpec,
-    SamplerSpec,
-    SceneSpec,
-    Spec,
-)
+from samplekit.specs.declaration import API_VERSION, CommandSpec
 from samplekit.specs.option import NAME, Option, OptionValue, written
 from samplekit.specs.promise import (
     GridStrata,
@@ -18,6 +10,11 @@ from samplekit.specs.promise import (
     OrthogonalArray,
     Promise,
 )
+from samplekit.specs.randomizer import RandomizerSpec
+from samplekit.specs.sampler import SamplerSpec
+from samplekit.specs.scene import PIXEL_FILTER, SceneSpec
+
+Spec = SamplerSpec | RandomizerSpec | SceneSpec | CommandSpec
 
 __all__ = [
     "API_VERSION",
