@@ -26,7 +26,7 @@ class Subjects:
         for known, subject in self._made:
             if known is recipe or known == recipe:
                 return subject
-        from samplekit.conformance.scenes import SceneSubject
+        from samplekit.conformance.scene_subject import SceneSubject
         from samplekit.conformance.subject import Subject
 
         made = (Subject if kind == "sampler" else SceneSubject)(recipe, quick=self.quick)

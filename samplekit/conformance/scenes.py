@@ -12,15 +12,11 @@ from samplekit.conformance.imports import judge_light_import
 from samplekit.conformance.purity import printing_nothing, untouched_globals
 from samplekit.conformance.result import CheckFailed, NotApplicable, check
 from samplekit.conformance.statistics import SAMPLER_RATE
-from samplekit.integration.configured import ConfiguredScene, configured_scene
-from samplekit.registry import Offer, Plugin
-from samplekit.specs import SceneSpec
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-SceneRecipe = str | SceneSpec
-"""What a user writes (``"disk:radius=0.4"``), or the declaration of a scene that is not installed."""
+    from samplekit.conformance.scene_subject import SceneSubject
 
 _NODES = (16, 32, 64)
 _SMOOTH = 1e-12
@@ -29,43 +25,6 @@ _SHIFTS = 32
 _LATTICE = 4093
 _BLOCK = 1024
 _ALMOST_ONE = 1.0 - 2.0**-53
-
-
-class SceneSubject:
-    """A scene under judgement."""
-
-    def __init__(self, recipe: SceneRecipe, *, quick: bool = False) -> None:
-        self.recipe = recipe
-        if isinstance(recipe, str):
-            self.scene: ConfiguredScene = configured_scene(recipe)
-        else:
-            self.scene = ConfiguredScene(Offer(recipe, Plugin("not-installed", "none", "0")), {})
-        self.spec = self.scene.spec
-        self.text = self.scene.text
-        self.dims = self.scene.dims
-        self.quick = quick
-        self.drawn = 0
-        self.hints: list[str] = []
-        self.notes: list[str] = []
-
-    def values(self, u: NDArray[np.float64], box: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The integrand float64[M] at samples ``u`` float64[D, M] of the pixel ``box`` (left, width, top, height).
-
-        Each sample is a pixel of one sample: a sum of one value is that value.
-        """
-        self.drawn += u.shape[1]
-        tile = np.ascontiguousarray(u.T[:, :, None])
-        out = np.full(u.shape[1], np.nan)
-        self.scene.sums(tile, np.repeat(box[:, None], u.shape[1], axis=1), out)
-        return out
-
-    def mean(self, u: NDArray[np.float64], box: NDArray[np.float64]) -> float:
-        """The mean over samples, summed exactly rounded."""
-        return math.fsum(self.values(u, box).tolist()) / int(u.shape[1])
-
-    def note(self, text: str) -> None:
-        """What a reader should know of how the judgement was made."""
-        self.notes.append(text)
 
 
 def _windows(subject: SceneSubject) -> list[tuple[NDArray[np.float64], NDArray[np.float64]]]:

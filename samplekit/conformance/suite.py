@@ -19,7 +19,7 @@ from samplekit.conformance.prefix import check_prefix, check_slices
 from samplekit.conformance.purity import check_purity
 from samplekit.conformance.range import check_range, check_shape
 from samplekit.conformance.result import CheckFailed, NotApplicable, Outcome
-from samplekit.conformance.scenes import SceneSubject
+from samplekit.conformance.scene_subject import SceneRecipe, SceneSubject
 from samplekit.conformance.strata import check_strata
 from samplekit.conformance.subject import Recipe, Subject
 from samplekit.conformance.underdeclared import check_under_declaring
@@ -136,7 +136,7 @@ def check_sampler(
 
 
 def check_scene(
-    recipe: scenes.SceneRecipe,
+    recipe: SceneRecipe,
     *,
     quick: bool = False,
     only: Sequence[str] | None = None,

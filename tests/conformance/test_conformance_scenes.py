@@ -30,7 +30,8 @@ def test_a_broken_scene_is_caught(spec, check):
 
 def test_the_quadrature_is_right():
     """Its own error, against integrals in closed form: smooth to 1e-10, a disk within what it says."""
-    from samplekit.conformance.scenes import SceneSubject, _quadrature
+    from samplekit.conformance.scene_subject import SceneSubject
+    from samplekit.conformance.scenes import _quadrature
 
     box = np.array([0.25, 0.5, 0.125, 0.25])
     mean, tolerance = _quadrature(SceneSubject("bilinear"), box, 100)
