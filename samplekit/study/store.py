@@ -1,12 +1,14 @@
 """What a study has found so far, in an SQLite file: a transaction for each job, so that a kill loses no finished one.
 
 The file is held exclusively while a study runs. The lock is the operating system's: it goes with its process, however
-that ends.
+that ends. SQLite does not notice a bit that flips in a number, so every row has a SHA-256 digest of itself: one that
+does not fit ends the study, and no result comes of it.
 """
 
 from __future__ import annotations
 
 import contextlib
+import hashlib
 import json
 import sqlite3
 from typing import TYPE_CHECKING, Any
@@ -28,17 +30,21 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-FORMAT = 1
+FORMAT = 2
 NAME = "study.sqlite"
 _TABLES = """
-CREATE TABLE study (format INTEGER, request TEXT, versions TEXT);
-CREATE TABLE sums (scene TEXT, sampler TEXT, count INTEGER, first INTEGER, last INTEGER, batches BLOB,
+CREATE TABLE study (format INTEGER, request TEXT, versions TEXT, digest BLOB);
+CREATE TABLE sums (scene TEXT, sampler TEXT, count INTEGER, first INTEGER, last INTEGER, batches BLOB, digest BLOB,
   PRIMARY KEY (scene, sampler, count, first));
 CREATE TABLE laps (machine TEXT, scene TEXT, sampler TEXT, count INTEGER,
-  points_cpu REAL, points_wall REAL, scene_cpu REAL, scene_wall REAL);
-CREATE TABLE setups (machine TEXT, scene TEXT, sampler TEXT, count INTEGER, cpu REAL, wall REAL,
+  points_cpu REAL, points_wall REAL, scene_cpu REAL, scene_wall REAL, digest BLOB);
+CREATE TABLE setups (machine TEXT, scene TEXT, sampler TEXT, count INTEGER, cpu REAL, wall REAL, digest BLOB,
   PRIMARY KEY (machine, scene, sampler, count))
 """
+
+
+def _digest(row: Sequence[Any]) -> bytes:
+    return hashlib.sha256(repr(tuple(row)).encode()).digest()
 
 
 class Store:
@@ -74,8 +80,7 @@ class Store:
                 with self._transaction():
                     for table in _TABLES.split(";"):
                         self._database.execute(table)
-                    row = FORMAT, json.dumps(request), json.dumps(versions)
-                    self._database.execute("INSERT INTO study VALUES (?, ?, ?)", row)
+                    self._insert("INSERT INTO study", (FORMAT, json.dumps(request), json.dumps(versions)))
                 return
             found = self._database.execute("SELECT format FROM study").fetchone() if "study" in tables else None
             if found is None or found[0] != FORMAT:
@@ -83,7 +88,7 @@ class Store:
                     f"{self._shown} is of version {found[0] if found else 'unknown'}, this samplekit continues version"
                     f" {FORMAT}: finish it with the samplekit that began it, or choose another folder"
                 )
-            kept_request, kept_versions = self._database.execute("SELECT request, versions FROM study").fetchone()
+            ((_, kept_request, kept_versions),) = self._select("study")
         self._compare(json.loads(kept_request), request, json.loads(kept_versions), versions)
 
     def _compare(
@@ -113,49 +118,57 @@ class Store:
         with self._faults(), self._transaction():
             for count, batches in zip(job.counts, sums, strict=True):
                 row = job.scene, job.sampler, count, job.first, job.last, np.ascontiguousarray(batches).tobytes()
-                self._database.execute("INSERT OR REPLACE INTO sums VALUES (?, ?, ?, ?, ?, ?)", row)
+                self._insert("INSERT OR REPLACE INTO sums", row)
 
     def ranges(self, cell: Cell) -> list[tuple[int, int]]:
         """The trials that a cell has, first to last of each job."""
-        query = "SELECT first, last FROM sums WHERE scene = ? AND sampler = ? AND count = ? ORDER BY first"
-        with self._faults():
-            return self._database.execute(query, (*cell.pair, cell.count)).fetchall()
+        return [(first, last) for first, last, _ in self._batches(cell)]
 
     def sums(self, cell: Cell) -> Array:
         """The batches float64[B, COLUMNS] of a cell, in the order of their trials."""
-        query = "SELECT batches FROM sums WHERE scene = ? AND sampler = ? AND count = ? ORDER BY first"
-        with self._faults():
-            blobs = [blob for (blob,) in self._database.execute(query, (*cell.pair, cell.count))]
+        blobs = [batches for _, _, batches in self._batches(cell)]
         return np.frombuffer(b"".join(blobs), np.float64).reshape(-1, COLUMNS)
+
+    def _batches(self, cell: Cell) -> list[tuple[int, int, bytes]]:
+        where = "sums WHERE scene = ? AND sampler = ? AND count = ? ORDER BY first"
+        with self._faults():
+            return [row[3:] for row in self._select(where, *cell.pair, cell.count)]
 
     def add_laps(self, machine: str, laps: Sequence[tuple[Cell, tuple[float, float, float, float]]]) -> None:
         """Keep times of single trials: of points by processor and wall clock, and of the scene."""
-        rows = [(machine, *cell.pair, cell.count, *seconds) for cell, seconds in laps]
         with self._faults(), self._transaction():
-            self._database.executemany("INSERT INTO laps VALUES (?, ?, ?, ?, ?, ?, ?, ?)", rows)
+            for cell, seconds in laps:
+                self._insert("INSERT INTO laps", (machine, *cell.pair, cell.count, *map(float, seconds)))
 
     def laps(self, machine: str, cell: Cell) -> Array:
         """The times float64[L, 4] of a cell on a machine."""
-        query = (
-            "SELECT points_cpu, points_wall, scene_cpu, scene_wall FROM laps"
-            " WHERE machine = ? AND scene = ? AND sampler = ? AND count = ? ORDER BY rowid"
-        )
+        where = "laps WHERE machine = ? AND scene = ? AND sampler = ? AND count = ? ORDER BY rowid"
         with self._faults():
-            rows = self._database.execute(query, (machine, *cell.pair, cell.count)).fetchall()
-        return np.array(rows, np.float64).reshape(-1, 4)
+            rows = self._select(where, machine, *cell.pair, cell.count)
+        return np.array([row[4:] for row in rows], np.float64).reshape(-1, 4)
 
     def add_setup(self, machine: str, cell: Cell, cpu: float, wall: float) -> None:
         """Keep the seconds before a cell's first sample; the first that were kept stay."""
         with self._faults(), self._transaction():
-            row = machine, *cell.pair, cell.count, cpu, wall
-            self._database.execute("INSERT OR IGNORE INTO setups VALUES (?, ?, ?, ?, ?, ?)", row)
+            self._insert("INSERT OR IGNORE INTO setups", (machine, *cell.pair, cell.count, float(cpu), float(wall)))
 
     def setup(self, machine: str, cell: Cell) -> tuple[float, float]:
         """These seconds, by processor and wall clock."""
-        query = "SELECT cpu, wall FROM setups WHERE machine = ? AND scene = ? AND sampler = ? AND count = ?"
+        where = "setups WHERE machine = ? AND scene = ? AND sampler = ? AND count = ?"
         with self._faults():
-            found = self._database.execute(query, (machine, *cell.pair, cell.count)).fetchone()
-        return found or (0.0, 0.0)
+            rows = self._select(where, machine, *cell.pair, cell.count)
+        return rows[0][4:] if rows else (0.0, 0.0)
+
+    def _insert(self, into: str, row: tuple[Any, ...]) -> None:
+        places = ", ".join("?" * (len(row) + 1))
+        self._database.execute(f"{into} VALUES ({places})", (*row, _digest(row)))
+
+    def _select(self, where: str, *values: Any) -> list[Any]:
+        """Whole rows without their digests, which fit."""
+        rows = self._database.execute(f"SELECT * FROM {where}", values).fetchall()
+        if any(_digest(row[:-1]) != row[-1] for row in rows):
+            raise sqlite3.DatabaseError("it is damaged: numbers in it are not those that were written")
+        return [row[:-1] for row in rows]
 
     @property
     def _shown(self) -> str:
@@ -178,6 +191,8 @@ class Store:
         try:
             yield
         except sqlite3.OperationalError as error:
+            if "decode" in str(error) or "no such column" in str(error) or "no such table" in str(error):
+                raise UsageError(f"cannot read {self._shown}: it is damaged: choose another folder") from None
             if "locked" in str(error):
                 raise UsageError(f"{self._shown} is in use: another study is writing there") from None
             raise SamplekitError(

@@ -78,10 +78,45 @@ def test_other_formats_and_other_files_are_refused(opened, tmp_path):
     with sqlite3.connect(tmp_path / NAME) as database:
         database.execute("UPDATE study SET format = 0")
     database.close()
-    with pytest.raises(UsageError, match="version 0, this samplekit continues version 1"):
+    with pytest.raises(UsageError, match="version 0, this samplekit continues version 2"):
         opened()
     (tmp_path / NAME).write_bytes(b"no database at all " * 100)
     with pytest.raises(UsageError, match="choose another folder"):
+        opened()
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        "UPDATE sums SET batches = zeroblob(length(batches))",
+        "UPDATE sums SET batches = substr(batches, 2)",
+        "UPDATE sums SET batches = NULL",
+        "UPDATE sums SET last = 1",
+        "UPDATE sums SET digest = NULL",
+        "DROP TABLE sums",
+    ],
+)
+def test_numbers_that_changed_in_the_file_are_no_results(opened, tmp_path, damage):
+    (cell,), _ = lay_out(REQUEST, Subjects())
+    store = opened()
+    store.add(Job("disk", "random", (4,), 0, 2, 1, (1, 1), 0), np.ones((1, 2, COLUMNS)))
+    store.close()
+    with sqlite3.connect(tmp_path / NAME) as database:
+        database.execute(damage)
+    database.close()
+    again = opened()
+    for ask in (again.ranges, again.sums):
+        with pytest.raises(UsageError, match=r"damaged.*choose another folder"):
+            ask(cell)
+
+
+@pytest.mark.parametrize("damage", ["request = 'x'", "versions = '{'", "request = NULL", "versions = X'80'"])
+def test_a_request_that_changed_in_the_file_is_damage(opened, tmp_path, damage):
+    opened().close()
+    with sqlite3.connect(tmp_path / NAME) as database:
+        database.execute(f"UPDATE study SET {damage}")
+    database.close()
+    with pytest.raises(UsageError, match=r"damaged.*choose another folder"):
         opened()
 
 
