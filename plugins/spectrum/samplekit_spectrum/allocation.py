@@ -83,14 +83,14 @@ def mean_and_error(strata: list[Stratum]) -> tuple[float, float]:
     return float(sum(total.mean() for total in totals)), math.sqrt(variance)
 
 
-def refine(strata: list[Stratum], spectra: Spectra, source: Source, realizations: int | None) -> None:
-    """Add realisations until there are enough, or ``realizations`` in each stratum."""
+def refine(strata: list[Stratum], spectra: Spectra, source: Source, realizations: int | None, zero: float) -> None:
+    """Add realisations until there are enough, or ``realizations`` in each stratum; a sum of ``zero`` is rounding."""
     while True:
         if realizations is not None:
             wanted = [realizations] * len(strata)
         else:
             mean, error = mean_and_error(strata)
-            if error <= PRECISION * mean:
+            if error <= PRECISION * mean or mean <= zero:
                 return
             wanted = _allocated(strata, source, PRECISION * mean)
         lacking = [(stratum, number - stratum.realizations) for stratum, number in zip(strata, wanted, strict=True)]

@@ -23,6 +23,7 @@ from samplekit.sampling.configured import configured_sampler
 from samplekit_spectrum.allocation import PILOT, Stratum, mean_and_error, refine
 from samplekit_spectrum.dual_lattice import variance_on_grid
 from samplekit_spectrum.expectation import expectations
+from samplekit_spectrum.measurement import ZERO
 from samplekit_spectrum.regions import axis, outer_power, reaches, regions, square
 
 if TYPE_CHECKING:
@@ -122,7 +123,7 @@ def predicted_variance(
         if max_frequency is None:
             trimmed = _trimmed(integrand, strata)
             strata = strata if trimmed == chosen else begun(trimmed)
-        refine(strata, spectra, source, realizations)
+        refine(strata, spectra, source, realizations, integrand.energy * ZERO**2)
     return _summed(source, integrand, strata, fixed=fixed)
 
 
