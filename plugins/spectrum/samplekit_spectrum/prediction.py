@@ -105,13 +105,7 @@ def predict(
     integrand_scene = configured_scene(scene) if isinstance(scene, str) else scene
     integrand = integrand_of(integrand_scene)
     chosen.check(count, integrand_scene.dims)
-    check_seed(seed)
-    if trials is not None:
-        check_integer(trials, "trials", 2**31, least=4)
-    if realizations is not None:
-        check_integer(realizations, "realizations", 2**31)
-    if max_frequency is not None:
-        check_integer(max_frequency, "max-frequency", 2**13)
+    check_settings(trials, realizations, max_frequency, seed)
     predicted = predicted_variance(
         Source(chosen, int(count), 2, int(seed)), integrand, realizations=realizations, max_frequency=max_frequency,
         threads=threads, progress=lambda done, total: progress("spectra", done, total),
@@ -132,6 +126,23 @@ def predict(
         fewer = trials if shifts == 1 else shifted.trials // shifts
         plain = measured(chosen, "measuring without the shift", fewer, 1)
     return _compared(int(count), integrand, predicted, shifted, plain)
+
+
+def check_settings(trials: int | None, realizations: int | None, max_frequency: int | None, seed: int) -> None:
+    """Raise unless these are settings of :func:`predict`.
+
+    Raises
+    ------
+    UsageError
+        One is not an integer of its range.
+    """
+    check_seed(seed)
+    if trials is not None:
+        check_integer(trials, "trials", 2**31, least=4)
+    if realizations is not None:
+        check_integer(realizations, "realizations", 2**31)
+    if max_frequency is not None:
+        check_integer(max_frequency, "max-frequency", 2**13)
 
 
 def _shifts(trials: int) -> int:

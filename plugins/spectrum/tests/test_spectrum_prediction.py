@@ -14,6 +14,7 @@ from scipy.stats import chi2
 
 import samplekit
 from samplekit import Sampler
+from samplekit.cli import run
 from samplekit.errors import UsageError
 from samplekit.sampling.realizations import Realizations
 
@@ -160,6 +161,14 @@ def test_wrong_use_is_one_clear_line():
             predict("random", "disk", 4, **settings)
     with pytest.raises(UsageError, match="nearest"):
         predict("jittered", "disk", 7)
+    with pytest.raises(UsageError, match="beyond float64"):
+        predict("random", "spike:peak=1e290", 4)
+
+
+@pytest.mark.parametrize("setting", ["--trials=2", "--max-frequency=9999", "--threads=9999"])
+def test_wrong_settings_are_refused_before_anything_is_printed(setting, capsys):
+    assert run(["predict", "-s", "random", "--scene", "disk", "-n", "4", setting]) == 2
+    assert capsys.readouterr().out == ""
 
 
 def test_the_standard_error_of_a_variance():

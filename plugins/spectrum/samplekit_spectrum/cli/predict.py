@@ -64,10 +64,12 @@ def predict(
     announce_compilation()
     from samplekit.cli.progress import Progress
     from samplekit.integration.configured import configured_scene
+    from samplekit.integration.threads import check_threads
     from samplekit.parsing import parse_count, parse_counts, parse_seed
     from samplekit.sampling.configured import configured_sampler
     from samplekit_spectrum.homogenized import is_homogeneous
     from samplekit_spectrum.integrands import integrand_of
+    from samplekit_spectrum.prediction import check_settings
     from samplekit_spectrum.prediction import predict as predict_one
 
     counts = parse_counts(count, "count")
@@ -80,8 +82,9 @@ def predict(
         "realizations": parse_count(realizations, "realizations") if realizations else None,
         "max_frequency": parse_count(max_frequency, "max-frequency") if max_frequency else None,
         "seed": parse_seed(seed),
-        "threads": parse_count(threads, "threads") if threads else None,
     }
+    check_settings(**settings)
+    settings["threads"] = check_threads(parse_count(threads, "threads")) if threads else None
     integrand = integrand_of(integrated)
     with_native = not is_homogeneous(chosen)
     if not json:
@@ -139,13 +142,12 @@ def _heading(sampler: str, scene: str, settings: dict[str, Any], integrand: Any,
 
 def _line(row: Comparison, with_native: bool) -> str:
     predicted, measured = row.predicted, row.measured
-    whole = predicted.variance or 1.0
-    interval = f"{row.ratio_low:.4f} to {row.ratio_high:.4f}"
-    line = (
-        f"  {row.count:>8}{predicted.variance:>12.4e}{predicted.standard_error / whole:>9.2%}"
-        f"{predicted.tail / whole:>9.2%}{predicted.tail_bound / whole:>9.2%}{measured.variance:>12.4e}"
-        f"{row.ratio:>8.4f}{interval:>18}"
-    )
+    # Shares and ratios of two zeros say nothing.
+    exact = row.verdict == "exact"
+    parts = (predicted.standard_error, predicted.tail, predicted.tail_bound)
+    shares = "".join(f"{'-' if exact else f'{part / predicted.variance:.2%}':>9}" for part in parts)
+    ratio, interval = ("-", "-") if exact else (f"{row.ratio:.4f}", f"{row.ratio_low:.4f} to {row.ratio_high:.4f}")
+    line = f"  {row.count:>8}{predicted.variance:>12.4e}{shares}{measured.variance:>12.4e}{ratio:>8}{interval:>18}"
     native = f"{row.native.variance:>12.4e}" if row.native else ""
     return line + (native if with_native else "") + f"  {row.verdict}"
 

@@ -5,7 +5,10 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from samplekit.errors import UsageError
 from samplekit_spectrum.integrands.closed import closed_form
@@ -21,15 +24,27 @@ def integrand_of(scene: ConfiguredScene) -> Integrand:
     Raises
     ------
     UsageError
-        The scene needs more than the two dimensions of the pixel.
+        The scene needs more than the two dimensions of the pixel, or its square is beyond float64.
     """
     if scene.dims != 2:
         raise UsageError(
             f"{scene.text} needs {scene.dims} dimensions: a variance can be predicted for 2, those of the pixel"
         )
+    try:
+        integrand = _closed_or_sampled(scene)
+        known = math.isfinite(integrand.variance)
+    except OverflowError:
+        known = False
+    if not known:
+        raise UsageError(f"the square of {scene.text} is beyond float64: its variance cannot be predicted")
+    return integrand
+
+
+def _closed_or_sampled(scene: ConfiguredScene) -> Integrand:
     closed = closed_form(scene) if scene.plugin.name == "samplekit" else None
     if closed is not None:
         return closed
     from samplekit_spectrum.integrands.sampled import sampled_integrand
 
-    return sampled_integrand(scene)
+    with np.errstate(over="ignore", invalid="ignore"):
+        return sampled_integrand(scene)
