@@ -1,18 +1,53 @@
-"""The guard: calls into a plugin, whose faults end in one line that names it."""
+"""The guard: calls into a plugin, whose faults end in one line that names it, and whose prints are no results."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, TypeVar
+import contextlib
+import sys
+import threading
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from samplekit.errors import SamplekitError, UsageError
 from samplekit.quoting import quoted, reason
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     from samplekit.registry import Plugin
 
 T = TypeVar("T")
+
+
+class _Calls(threading.local):
+    depth = 0
+
+
+_calls = _Calls()
+"""Those under way in a thread."""
+
+
+class _Results:
+    """Standard output, but for what a thread writes within a guarded call: that goes to standard error."""
+
+    def __init__(self, stream: Any) -> None:
+        self._stream = stream
+
+    def write(self, text: str) -> int:
+        return int((sys.stderr if _calls.depth else self._stream).write(text))
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stream, name)
+
+
+@contextlib.contextmanager
+def results_alone() -> Iterator[None]:
+    """Keep what plugins print off standard output, for any number of threads."""
+    stream = sys.stdout
+    sys.stdout = _Results(stream)
+    try:
+        yield
+    finally:
+        sys.stdout = stream
 
 
 class Guard:
@@ -48,6 +83,7 @@ class Guard:
         UsageError
             The plugin's own: the request is at fault.
         """
+        _calls.depth += 1
         try:
             answer = call()
             right = valid(answer)
@@ -57,6 +93,8 @@ class Guard:
             raise self.blame(f"{fault}: {error}") from error
         except (Exception, SystemExit) as error:
             raise self.blame(f"{fault}: {reason(error)}") from error
+        finally:
+            _calls.depth -= 1
         if not right:
             raise self.blame(f"{fault}: expected {expected}, got {quoted(answer)}")
         return answer

@@ -18,6 +18,7 @@ from samplekit.cli import interrupts
 from samplekit.cli.plugin_commands import PluginGroup
 from samplekit.cli.single_options import SingleOptionsCommand
 from samplekit.errors import SamplekitError, UsageError
+from samplekit.guard import results_alone
 
 DONE, FAILED, WRONG_USE, CHECK_FAILED, INTERRUPTED = 0, 1, 2, 3, 130
 
@@ -75,7 +76,7 @@ def _nowhere() -> TextIO:
 def run(arguments: list[str]) -> int:
     """Run one command and return its exit status: 0 done, 1 failed, 2 wrong use, 3 a check failed, 130 interrupted."""
     try:
-        with interrupts.remembered():
+        with interrupts.remembered(), results_alone():
             result = app(args=arguments, prog_name="samplekit", standalone_mode=False)
         return result if isinstance(result, int) else DONE
     except (UsageError, _TyperUsageError) as error:
@@ -84,6 +85,11 @@ def run(arguments: list[str]) -> int:
         return _failed(_message(error), FAILED, arguments)
     except (KeyboardInterrupt, typer.Abort):
         return INTERRUPTED
+    except SystemExit as error:
+        # Some plugins' commands end like programs.
+        if error.code is None or isinstance(error.code, int):
+            return error.code or DONE
+        return _failed(" ".join(str(error.code).split()), FAILED, arguments)
     except BrokenPipeError:
         _abandon_stdout()
         return FAILED

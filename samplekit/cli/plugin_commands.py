@@ -13,7 +13,7 @@ from samplekit.cli.panels import arranged
 from samplekit.cli.single_options import SingleOptionsCommand
 from samplekit.errors import SamplekitError, UsageError
 from samplekit.guard import Guard
-from samplekit.quoting import reason
+from samplekit.quoting import quoted, reason
 
 if TYPE_CHECKING:
     from samplekit.registry import Offer
@@ -25,6 +25,7 @@ OFFICIAL = {"spectrum": "samplekit-spectrum", "predict": "samplekit-spectrum"}
 _TyperError: type[Exception] = typer.BadParameter.__mro__[2]
 
 _CHOSEN = "samplekit.command-chosen"
+_LARGEST_STATUS = 255
 
 
 class PluginGroup(TyperGroup):
@@ -79,13 +80,18 @@ def _made(offer: Offer) -> Any:
     @functools.wraps(run)
     def guarded(*arguments: Any, **options: Any) -> Any:
         try:
-            return run(*arguments, **options)
+            status = run(*arguments, **options)
         except (SamplekitError, MemoryError, OSError, typer.Exit, typer.Abort, _TyperError):
             raise
         except Exception as error:
             if os.environ.get("SAMPLEKIT_TRACEBACK"):
                 raise
             raise guard.blame(f"failed: {reason(error)}") from error
+        if isinstance(status, int) and not (isinstance(status, bool) or 0 <= status <= _LARGEST_STATUS):
+            raise guard.blame(
+                f"returned {quoted(status)}: expected an exit status from 0 to {_LARGEST_STATUS}, or None"
+            )
+        return None if isinstance(status, bool) else status
 
     single = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
     single.command(offer.called, help=_plain(run.__doc__ or offer.spec.summary), cls=SingleOptionsCommand)(guarded)

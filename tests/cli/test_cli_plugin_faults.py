@@ -134,3 +134,36 @@ def test_a_scene_that_answers_nonsense_is_named(command, plugins, body):
     done = command(*RENDER_SCENE)
     assert done.status == 1
     assert done.error.startswith("scene toy of plugin toys (toys-distribution 1.0) cannot ")
+
+
+def test_what_a_plugin_prints_at_work_is_no_result(command, plugins):
+    plugins.offer("toys", "sampler", TOY_SAMPLER)
+    body = "def fill(self, out, realizations, count, start):\n    print('noise')\n    out[...] = 0.5\n"
+    plugins.module("toy_points", f"from samplekit import Sampler\nclass Toy(Sampler):\n  {body}")
+    done = command("points", "--sampler", "toy", "--count", "2", "--json")
+    assert done.report["points"] == [[[0.5, 0.5], [0.5, 0.5]]]
+    assert set(done.err.split()) == {"noise"}
+    study = "compare --sampler toy --scene disk --spp 4 --trials 8 --size 1 --no-time --threads 2 --json"
+    assert command(*study.split()).report["rows"]
+    # Beside its calls, and after them, standard output is as it was.
+    assert command("points", "--sampler", "toy", "--count", "1").out == "realisation,index,x0,x1\n0,0,0.5,0.5\n"
+
+
+@pytest.mark.parametrize(
+    ("body", "status", "error"),
+    [
+        ("sys.exit('two\\nlines')", 1, "samplekit: two lines\n"),
+        ("sys.exit(7)", 7, ""),
+        ("sys.exit()", 0, ""),
+        ("return 3", 3, ""),
+        ("return True", 0, ""),
+        ("return 10**400", 1, "expected an exit status from 0 to 255, or None\n"),
+    ],
+)
+def test_a_command_that_ends_in_its_own_way_has_a_status(command, plugins, body, status, error):
+    plugins.offer("toys", "command", "CommandSpec('juggle','toy_command:juggle','')")
+    plugins.module("toy_command", f"import sys\ndef juggle():\n    {body}\n")
+    done = command("juggle")
+    assert done.status == status
+    assert done.err.endswith(error)
+    assert done.err.count("\n") == (1 if error else 0)
