@@ -65,11 +65,14 @@ def measure(
     wanted = TRIALS if trials is None else trials
     estimates = _estimates(scene, sampler, count, range(wanted), seed, threads, progress)
     found = summarize(estimates, exact, shifts)
-    if trials is None and found.standard_error > PRECISION * found.variance > 0.0:
-        more = min(math.ceil(1.1 * wanted * (found.standard_error / (PRECISION * found.variance)) ** 2), _MOST * wanted)
-        more = shifts * math.ceil(max(more, wanted + 1) / shifts)
-        rest = _estimates(scene, sampler, count, range(wanted, more), seed, threads, progress)
-        found = summarize(np.concatenate([estimates, rest]), exact, shifts)
+    while (
+        trials is None and found.standard_error > PRECISION * found.variance > 0.0 and estimates.size < _MOST * wanted
+    ):
+        aim = 1.1 * estimates.size * (found.standard_error / (PRECISION * found.variance)) ** 2
+        more = shifts * math.ceil(min(aim, most) / shifts)
+        rest = _estimates(scene, sampler, count, range(estimates.size, more), seed, threads, progress)
+        estimates = np.concatenate([estimates, rest])
+        found = summarize(estimates, exact, shifts)
     return found
 
 

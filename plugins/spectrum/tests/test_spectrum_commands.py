@@ -96,6 +96,14 @@ def test_tables(here, capsys):
     assert "native" in shown[1]
 
 
+def test_of_two_zeros_there_is_no_ratio(here, capsys):
+    assert run(["predict", "-s", "sobol+xor", "--scene", "step", "-n", "16", "--trials", "100"]) == 0
+    row = capsys.readouterr().out.splitlines()[-1].split()
+    assert row[2:5] == ["-", "-", "-"]
+    assert row[6:8] == ["-", "-"]
+    assert row[-1] == "exact"
+
+
 def test_prediction_as_json(here, capsys):
     assert (
         run(["predict", "-s", "random", "--scene", "step", "-n", "4^1..4^2", "--trials", "500", "-r", "50", "--json"])
