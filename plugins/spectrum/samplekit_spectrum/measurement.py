@@ -65,9 +65,8 @@ def measure(
     wanted = TRIALS if trials is None else trials
     estimates = _estimates(scene, sampler, count, range(wanted), seed, threads, progress)
     found = summarize(estimates, exact, shifts)
-    while (
-        trials is None and found.standard_error > PRECISION * found.variance > 0.0 and estimates.size < _MOST * wanted
-    ):
+    most = wanted if trials is not None else _MOST * wanted
+    while found.standard_error > PRECISION * found.variance > 0.0 and estimates.size < most:
         aim = 1.1 * estimates.size * (found.standard_error / (PRECISION * found.variance)) ** 2
         more = shifts * math.ceil(min(aim, most) / shifts)
         rest = _estimates(scene, sampler, count, range(estimates.size, more), seed, threads, progress)

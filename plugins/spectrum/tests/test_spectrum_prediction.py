@@ -41,7 +41,7 @@ def test_blue_noise_is_predicted_from_fresh_sets(sampler, count):
 
 
 def test_a_centre_as_dark_as_it_may_be_is_not_left_out():
-    """Grids of 32 x 32 under a shift of each realisation: all below 32 is 0, and the rest is the shifted grid's."""
+    """Grids of 16 x 16 under a shift of each realisation: all below 16 is 0, and the rest is the shifted grid's."""
 
     class Grids(Sampler):
         def draw(self, count, dims, rng):
@@ -51,8 +51,8 @@ def test_a_centre_as_dark_as_it_may_be_is_not_left_out():
 
     grids = samplekit.sampler("multi-jittered")
     grids._sampler = Grids()
-    row = predict(grids, "disk", 1024, trials=4000, realizations=32, native=False)
-    exact = predict("regular", "disk", 1024, trials=4, native=False).predicted.variance
+    row = predict(grids, "disk", 256, trials=2000, realizations=32, native=False)
+    exact = predict("regular", "disk", 256, trials=4, native=False).predicted.variance
     assert 0.85 < row.ratio < 1.15
     assert row.predicted.tail < 0.7 * row.predicted.variance
     assert row.predicted.variance - row.predicted.tail < exact < row.predicted.variance + row.predicted.tail_bound
@@ -94,10 +94,17 @@ def test_sets_of_one_power_need_one_spectrum(scene):
     assert 0.85 < row.ratio < 1.15
 
 
-def test_the_interval_is_narrower_than_5_percent_by_default():
-    row = predict("jittered", "gaussian", 16, native=False)
+@pytest.mark.parametrize(
+    ("sampler", "scene", "more"), [("jittered", "gaussian", False), ("poisson-disk", "step", True)]
+)
+def test_the_interval_is_narrower_than_5_percent_by_default(sampler, scene, more):
+    if sampler == "poisson-disk":
+        pytest.importorskip("samplekit_bluenoise")
+    row = predict(sampler, scene, 16, native=False)
     assert row.ratio_high - row.ratio_low < 0.05
     assert row.verdict == "agrees"
+    # Poisson disks differ much at the lowest frequencies, of which the step has most.
+    assert (row.measured.trials > 40_000) == more
 
 
 def test_jitter_meets_its_closed_form():
