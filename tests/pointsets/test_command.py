@@ -83,7 +83,7 @@ def test_wrong_use_says_what_would_be_right(tmp_path, monkeypatch, arguments, me
 
 
 def test_more_points_than_memory_is_a_clear_line():
-    assert "GB" in run("--sampler", "random", "--count", "2^50", wrong=SamplekitError)
+    assert "GiB" in run("--sampler", "random", "--count", "2^50", wrong=SamplekitError)
 
 
 def test_the_command_line_imports_nothing_heavy():
