@@ -56,7 +56,9 @@ def _main(
 
 
 for _spec in COMMANDS:
-    app.command(_spec.name, cls=SingleOptionsCommand)(_spec.load())
+    _run = _spec.load()
+    # Python drops docstrings if it is asked to (-OO).
+    app.command(_spec.name, help=_run.__doc__ or _spec.summary, cls=SingleOptionsCommand)(_run)
 
 
 def main() -> None:

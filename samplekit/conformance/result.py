@@ -155,7 +155,8 @@ def check(
     """Make a function a check; the first line of its docstring is its summary."""
 
     def decorate(function: Callable[[Any], None]) -> Check:
-        summary = (function.__doc__ or "").strip().splitlines()[0]
+        # Python drops docstrings if it is asked to (-OO).
+        summary = next(iter((function.__doc__ or name).strip().splitlines()))
         return Check(name, number, kind, summary, tolerance, requires, function)
 
     return decorate

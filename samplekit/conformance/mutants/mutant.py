@@ -54,7 +54,8 @@ class Mutant(Sampler):
         name = "".join("-" + c.lower() if c.isupper() else c for c in cls.__name__).strip("-")
         base = configured_sampler(cls.base).spec
         target = f"{cls.__module__}:{cls.__name__}"
-        summary = (cls.__doc__ or "").strip().splitlines()[0]
+        # Python drops docstrings if it is asked to (-OO).
+        summary = next(iter((cls.__doc__ or name).strip().splitlines()))
         return replace(base, name=name, target=target, summary=summary, options=(), **cls.declares)  # type: ignore[arg-type]
 
 
