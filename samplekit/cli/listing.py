@@ -48,7 +48,7 @@ def list_(
     """
     from samplekit.errors import UsageError
 
-    if kind and kind not in _KINDS:
+    if (kind or name) and kind not in _KINDS:
         raise UsageError(f"list {kind}: expected {', '.join(_KINDS[:-1])} or {_KINDS[-1]}")
     if name:
         _print_one(kind, name, json)

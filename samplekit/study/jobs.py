@@ -91,13 +91,25 @@ def split(
         batch = batch_of(largest.trials)
         unit = max(batch, 2)
         counts = tuple(cell.count for cell in group)
-        for start, stop in missing(largest):
+        # Of one draw all have the same trials, unless somebody took rows out of the file.
+        for start, stop in _union(each for cell in group for each in missing(cell)):
             length = min(_SECONDS / max(seconds.get(largest, 0.0), 1e-9), (stop - start) / workers, _MOST_TRIALS)
             length = max(1, round(length / unit)) * unit
             for first in range(start, stop, length):
                 job = Job(*largest.pair, counts, first, min(first + length, stop), batch, request.size, request.seed)
                 jobs.append((first / largest.trials, job))
     return [job for _, job in sorted(jobs, key=lambda item: item[0])]
+
+
+def _union(ranges: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
+    """The ranges, those that overlap or touch as one."""
+    joined: list[tuple[int, int]] = []
+    for first, last in sorted(ranges):
+        if joined and first <= joined[-1][1]:
+            joined[-1] = joined[-1][0], max(joined[-1][1], last)
+        else:
+            joined.append((first, last))
+    return joined
 
 
 def gaps(ranges: Sequence[tuple[int, int]], trials: int) -> list[tuple[int, int]]:

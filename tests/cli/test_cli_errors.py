@@ -242,6 +242,7 @@ def test_old_files_stay_when_the_command_is_refused(command, tmp_path):
         ([*render(), "--full=yes"], "--full"),
         (["list", "samplers", "scenes"], "scenes"),
         (["list", "nothing"], "list nothing"),
+        (["list", "", "disk"], "expected samplers, scenes, randomizers or plugins"),
         (["info"], "FILE"),
     ],
 )

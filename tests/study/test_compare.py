@@ -3,6 +3,7 @@
 import csv
 import json
 import signal
+import sqlite3
 import subprocess
 import sys
 import time
@@ -147,6 +148,18 @@ def test_killed_study_goes_on_to_the_same_results(tmp_path):
     assert errors_alone(resumed) == errors_alone(whole)
     assert resumed.fits == whole.fits
     assert json.loads((folder / "results.json").read_text(encoding="utf-8"))["complete"] is True
+
+
+def test_rows_that_somebody_took_out_of_the_file_are_computed_anew(tmp_path):
+    """Those of a smaller count as well, whose larger ones from the same draw are there."""
+    ask = (["random"], ["disk"], [1, 4, 16])
+    whole = samplekit.compare(*ask, trials=64, size=(1, 1), times=False, output=tmp_path)
+    with sqlite3.connect(tmp_path / "study.sqlite") as database:
+        database.execute("DELETE FROM sums WHERE count = 4")
+    database.close()
+    resumed = samplekit.compare(*ask, trials=64, size=(1, 1), times=False, output=tmp_path, resume=True)
+    assert resumed.complete
+    assert errors_alone(resumed) == errors_alone(whole)
 
 
 def test_the_unit_square_is_studied_with_fresh_sets():
