@@ -109,7 +109,9 @@ def run(arguments: list[str]) -> int:
 
 def _abandon_stdout() -> None:
     """Nothing more can be said on stdout, and Python must not try when it exits."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    # A stream within this process has no number, and nothing of it is lost at the end.
+    with contextlib.suppress(OSError, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _message(error: Exception) -> str:

@@ -1,5 +1,6 @@
 """Plugins that exit, stay silent or are half removed: named, and harmless to everybody else."""
 
+import io
 import os
 import subprocess
 import sys
@@ -9,6 +10,7 @@ import numpy as np
 import pytest
 
 import samplekit
+from samplekit.cli import run
 
 TOY_SAMPLER = 'SamplerSpec("toy", "toy_points:Toy", "a toy")'
 TOY_SCENE = 'SceneSpec("toy", "toy_scene:Toy", "a toy")'
@@ -167,3 +169,11 @@ def test_a_command_that_ends_in_its_own_way_has_a_status(command, plugins, body,
     assert done.status == status
     assert done.err.endswith(error)
     assert done.err.count("\n") == (1 if error else 0)
+
+
+def test_a_command_whose_disk_is_full_is_one_line(plugins, monkeypatch):
+    """Also where standard output is no file."""
+    plugins.offer("toys", "command", "CommandSpec('juggle','toy_command:juggle','')")
+    plugins.module("toy_command", "def juggle():\n    raise OSError(28, 'full')\n")
+    monkeypatch.setattr(sys, "stdout", io.StringIO())
+    assert run(["juggle"]) == 1
