@@ -8,7 +8,7 @@ import threading
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from samplekit.errors import SamplekitError, UsageError
-from samplekit.quoting import quoted, reason
+from samplekit.quoting import place, quoted, reason
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -92,7 +92,7 @@ class Guard:
         except SamplekitError as error:
             raise self.blame(f"{fault}: {error}") from error
         except (Exception, SystemExit) as error:
-            raise self.blame(f"{fault}: {reason(error)}") from error
+            raise self.blame(f"{fault}: {reason(error)}{place(error)}") from error
         finally:
             _calls.depth -= 1
         if not right:

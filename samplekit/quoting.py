@@ -25,3 +25,16 @@ def reason(error: BaseException) -> str:
     except Exception as second:
         text = f"(its text raises {type(second).__name__})"
     return f"{type(error).__name__}: {text}"[:_LONGEST_REASON] if text else type(error).__name__
+
+
+def place(error: BaseException) -> str:
+    """Where a stranger's code raised: the last of its lines, as ``" (points.py, line 12)"``; nothing if it has none."""
+    import traceback
+    from pathlib import Path
+
+    ours = Path(__file__).parent
+    for frame in reversed(traceback.extract_tb(error.__traceback__)):
+        path = Path(frame.filename)
+        if path.suffix == ".py" and ours not in path.parents and "numpy" not in path.parts:
+            return f" ({path.name}, line {frame.lineno})"
+    return ""

@@ -124,7 +124,10 @@ def _of_invalid(plan: Plan, samples: int, pixels: int) -> str:
 
 
 def _name(plan: Plan) -> str:
-    return f"{plan.scene.text}-{plan.sampler.text}-{plan.count}spp".replace(":", "-").replace("/", "-")
+    whole = plan.window == (0, 0, *plan.size)
+    # A crop must not take the place of the whole image beside it.
+    crop = "" if whole else "-crop-" + "-".join(map(str, plan.window))
+    return f"{plan.scene.text}-{plan.sampler.text}-{plan.count}spp{crop}".replace(":", "-").replace("/", "-")
 
 
 def _warn_of_an_old_error_picture(stem: Path) -> None:

@@ -78,7 +78,9 @@ def _of_sampler(need: ToTarget, needs: Sequence[ToTarget], choices: Sequence[Cho
             text += f" and {seconds_in_words(need.seconds)}"
             factor = need.seconds / fastest
             text += ", the least" if factor == 1.0 else f", {factor:.3g} times the least"
-    if fit is not None:
+    if fit is not None and fit.slope.high is not None and fit.slope.high >= 0.0:
+        text += "; how fast its mse falls, these counts do not tell"
+    elif fit is not None:
         text += f"; its mse falls as N^{fit.slope.estimate:.2f}"
         if fit.theory is not None:
             text += f" (theory: N^{fit.theory:g})"

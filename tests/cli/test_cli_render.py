@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 import samplekit
+from samplekit.cli import run
 from samplekit.images.exr import read_parts
 from samplekit.images.info import read_info
 from samplekit.images.png import read_png
@@ -504,3 +505,13 @@ def test_kernels_are_announced_on_standard_error_when_they_are_compiled(tmp_path
     assert done.stderr.startswith("samplekit: compiling kernels for this machine")
     assert done.stderr.count("\n") == 1
     assert json.loads(done.stdout)["samples"] == 256
+
+
+def test_a_crop_does_not_take_the_place_of_the_whole(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    arguments = ["render", "--sampler", "random", "--spp", "1", "--scene", "disk", "--size", "32"]
+    assert run(arguments) == 0
+    whole = (tmp_path / "disk-random-1spp.exr").read_bytes()
+    assert run([*arguments, "--crop", "8,4,16,16"]) == 0
+    assert (tmp_path / "disk-random-1spp.exr").read_bytes() == whole
+    assert (tmp_path / "disk-random-1spp-crop-8-4-16-16.exr").exists()
