@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from samplekit.cli.completion import complete_sampler
-from samplekit.cli.options import JsonOption, SeedOption
+from samplekit.cli.options import JsonOption, SamplerOption, SeedOption
 
 if TYPE_CHECKING:
     from samplekit.sampling.configured import ConfiguredSampler
@@ -16,16 +15,7 @@ SCHEMA = "samplekit.points/1"
 
 
 def points(
-    sampler: Annotated[
-        str,
-        typer.Option(
-            "--sampler",
-            "-s",
-            metavar="NAME[:OPTION=VALUE,...][+RANDOMIZER]",
-            help="The sampler, such as hammersley or sobol+owen.",
-            autocompletion=complete_sampler,
-        ),
-    ],
+    sampler: SamplerOption,
     count: Annotated[str, typer.Option("--count", "-n", metavar="N", help="Points of a set, such as 16 or 2^4.")],
     dims: Annotated[int, typer.Option("--dims", "-d", metavar="D", help="Dimensions.")] = 2,
     realizations: Annotated[

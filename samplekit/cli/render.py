@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from samplekit.cli.completion import complete_sampler, complete_scene
-from samplekit.cli.options import JsonOption, SeedOption
+from samplekit.cli.completion import complete_scene
+from samplekit.cli.options import JsonOption, SamplerOption, SeedOption
 
 if TYPE_CHECKING:
     from samplekit.integration.plan import Plan
@@ -16,16 +16,7 @@ if TYPE_CHECKING:
 
 
 def render(
-    sampler: Annotated[
-        str,
-        typer.Option(
-            "--sampler",
-            "-s",
-            metavar="NAME[:OPTION=VALUE,...][+RANDOMIZER]",
-            help="The sampler, such as hammersley or sobol+owen.",
-            autocompletion=complete_sampler,
-        ),
-    ],
+    sampler: SamplerOption,
     spp: Annotated[str, typer.Option("--spp", "-n", metavar="N", help="Samples per pixel.")],
     scene: Annotated[
         str,

@@ -34,12 +34,12 @@ class Tile:
 
 def image_tile(values: NDArray[np.float64], above: str = "", *below: str, enlarged: int = 1) -> Tile:
     """A tile of linear values float64[h, w], each pixel shown as a square of ``enlarged`` pixels."""
-    return Tile(_enlarged(encode_srgb(values), enlarged), above, below)
+    return Tile(enlarged_pixels(encode_srgb(values), enlarged), above, below)
 
 
 def error_tile(error: NDArray[np.float64], scale: float, above: str = "", *below: str, enlarged: int = 1) -> Tile:
     """A tile of signed errors in false colour: blue at -scale, white at 0, red at +scale."""
-    return Tile(_enlarged(diverging.colours(error, scale), enlarged), above, below)
+    return Tile(enlarged_pixels(diverging.colours(error, scale), enlarged), above, below)
 
 
 def rendering_tiles(result: Rendering, scale: float, above: str, *below: str, enlarged: int = 1) -> tuple[Tile, Tile]:
@@ -77,5 +77,6 @@ def sheet(title: str, lines: Sequence[str], rows: Sequence[Sequence[Tile]]) -> D
     return drawing
 
 
-def _enlarged(pixels: NDArray[np.uint8], factor: int) -> NDArray[np.uint8]:
+def enlarged_pixels(pixels: NDArray[np.uint8], factor: int) -> NDArray[np.uint8]:
+    """Each pixel of uint8[h, w, 3] as a square of ``factor`` pixels."""
     return np.repeat(np.repeat(pixels, factor, axis=0), factor, axis=1)

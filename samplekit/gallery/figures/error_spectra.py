@@ -12,6 +12,7 @@ from samplekit.drawing.chart import Chart, legend
 from samplekit.drawing.drawing import Bitmap, Drawing, Text
 from samplekit.drawing.series import style
 from samplekit.gallery.figure import Figure
+from samplekit.gallery.sheet import enlarged_pixels
 from samplekit.images import diverging
 
 if TYPE_CHECKING:
@@ -45,7 +46,7 @@ def error_spectra() -> Drawing:
         scale = 3.0 * float(np.sqrt(result.metrics["mse"]))
         part = result.error[_SHOWN // 2 : _SHOWN // 2 + _SHOWN, _SHOWN // 2 : _SHOWN // 2 + _SHOWN]
         drawing.add(Text(name, left, _TOP - 6, 12))
-        drawing.add(Bitmap(_twice(diverging.colours(part, scale)), left, _TOP))
+        drawing.add(Bitmap(enlarged_pixels(diverging.colours(part, scale), 2), left, _TOP))
         drawing.add(Bitmap(_grey(spectrum.power), left, _TOP + side + 8))
         words = f"mse {result.metrics['mse']:.2e}, blurred {result.metrics['blurred_mse']:.1e}: {spectrum.verdict}"
         drawing.add(Text(words, left, _TOP + 2 * side + 26, 12))
@@ -59,10 +60,6 @@ def _grey(power: NDArray[np.float64]) -> NDArray[np.uint8]:
     # Of a spectrum as large as the image, means of 2 x 2 would blur the axes: each frequency is one pixel.
     levels = np.rint(255.0 * np.clip(np.nan_to_num(power) / 2.0, 0.0, 1.0)).astype(np.uint8)
     return np.repeat(levels[..., None], 3, axis=2)
-
-
-def _twice(pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    return np.repeat(np.repeat(pixels, 2, axis=0), 2, axis=1)
 
 
 FIGURES = [

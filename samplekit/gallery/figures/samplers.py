@@ -13,6 +13,7 @@ from samplekit.drawing.chart import Chart
 from samplekit.drawing.drawing import Bitmap, Disks, Drawing, Text
 from samplekit.drawing.series import style
 from samplekit.gallery.figure import Figure
+from samplekit.gallery.sheet import enlarged_pixels
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -75,7 +76,7 @@ def _points(drawing: Drawing, points: NDArray[np.float64], left: int) -> None:
 def _map(drawing: Drawing, power: NDArray[np.float64], left: int) -> None:
     levels = np.rint(255.0 * np.clip(power / WHITE, 0.0, 1.0)).astype(np.uint8)
     levels[REACH, REACH] = 0
-    pixels = np.repeat(np.repeat(np.repeat(levels[..., None], 3, axis=2), 2, axis=0), 2, axis=1)
+    pixels = enlarged_pixels(np.repeat(levels[..., None], 3, axis=2), 2)
     drawing.add(Bitmap(pixels, left, _TOP))
     drawing.frame(left - 1, _TOP - 1, left + _SIDE, _TOP + _SIDE)
 
