@@ -20,11 +20,11 @@ import numpy as np
 from core import build, reversed_table
 
 import samplekit
-from samplekit.integration.estimator import UNIT_SQUARE, Estimator, Seconds
-from samplekit.integration.plan import make_plan
-from samplekit.integration.renderer import render_plan
-from samplekit.sampling.realizations import Realizations
-from samplekit.study.trials import seed_of
+from samplekit._bases.realizations import Realizations
+from samplekit._integrate.loop import UNIT_SQUARE, Estimator, Seconds
+from samplekit._integrate.plan import make_plan
+from samplekit._integrate.rendering import render_plan
+from samplekit._study.trials import seed_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

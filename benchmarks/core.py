@@ -17,9 +17,9 @@ from statistics import median
 import numpy as np
 
 import samplekit
-from samplekit.builtin.samplers.sobol import direction_numbers
-from samplekit.integration.plan import make_plan
-from samplekit.integration.renderer import render_plan
+from samplekit._builtin.samplers.sobol import direction_numbers
+from samplekit._integrate.plan import make_plan
+from samplekit._integrate.rendering import render_plan
 
 HERE = Path(__file__).parent
 SCENES = ("disk", "zoneplate")

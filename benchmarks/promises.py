@@ -18,15 +18,15 @@ from scipy.spatial import cKDTree
 
 import samplekit
 from samplekit import MinimumDistance, Net, UsageError
-from samplekit.conformance.distance import densest_distance
-from samplekit.conformance.nets import broken_box
-from samplekit.conformance.strata import broken_cell, promised_grids
-from samplekit.registry import registry
+from samplekit._registry import registry
+from samplekit.testing._distance import densest_distance
+from samplekit.testing._nets import broken_box
+from samplekit.testing._strata import broken_cell, promised_grids
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from samplekit.sampling.configured import ConfiguredSampler
+    from samplekit._chosen.sampler import ConfiguredSampler
 
 MOST_POINTS = 1 << 14
 BLOCKS = (0, 1, 5)

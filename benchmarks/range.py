@@ -16,11 +16,11 @@ import time
 import numpy as np
 
 from samplekit import Realizations
-from samplekit.conformance.elsewhere import forced_extremes
-from samplekit.conformance.subject import Subject
-from samplekit.counts import allows, nearest_above
-from samplekit.registry import registry
-from samplekit.sampling.configured import ConfiguredSampler, configured_sampler
+from samplekit._chosen.sampler import ConfiguredSampler, configured_sampler
+from samplekit._registry import registry
+from samplekit._specs.counts import allows, nearest_above
+from samplekit.testing._elsewhere import forced_extremes
+from samplekit.testing._subject import Subject
 
 COUNTS = (1, 3, 16, 97, 512)
 VALUES_AT_ONCE = 2**19

@@ -21,7 +21,7 @@ from scipy.stats import qmc
 
 import samplekit
 from samplekit import Realizations, UsageError
-from samplekit.counts import nearest_below
+from samplekit._specs.counts import nearest_below
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -11,9 +11,9 @@ import time
 import numpy as np
 import psutil
 
-from samplekit.integration.configured import configured_scene
-from samplekit.sampling.configured import configured_sampler
-from samplekit.stability.cell import measure
+from samplekit._chosen.sampler import configured_sampler
+from samplekit._chosen.scene import configured_scene
+from samplekit._stability.cell import measure
 
 
 def main() -> None:

@@ -15,13 +15,13 @@ def _():
     import samplekit_spectrum
 
     import samplekit
-    from samplekit.drawing.axis import Axis, spanning
-    from samplekit.drawing.chart import Chart, legend
-    from samplekit.drawing.drawing import Disks, Drawing
-    from samplekit.drawing.series import style
-    from samplekit.drawing.vector import svg_text
-    from samplekit.images.falsecolor import error_picture
-    from samplekit.images.png import encode_srgb
+    from samplekit._drawing.axis import Axis, spanning
+    from samplekit._drawing.chart import Chart, legend
+    from samplekit._drawing.drawing import Disks, Drawing
+    from samplekit._drawing.series import style
+    from samplekit._drawing.vector import svg_text
+    from samplekit.files._images.falsecolor import error_picture
+    from samplekit.files._images.png import encode_srgb
 
     return (
         Axis,

@@ -4,7 +4,7 @@
 def main() -> None:
     """Run the command line; an interrupt while it is still being imported is no traceback either."""
     try:
-        from samplekit.cli import main as run
+        from samplekit._cli import main as run
     except KeyboardInterrupt:
         raise SystemExit(130) from None
     run()

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from samplekit import registry as registry_module
+from samplekit import _registry as registry_module
 
 HEADER = "from samplekit import CommandSpec, Option, RandomizerSpec, SamplerSpec, SceneSpec, hookimpl\n"
 

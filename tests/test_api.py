@@ -7,11 +7,11 @@ import sys
 import pytest
 
 import samplekit
-import samplekit.api
+import samplekit._api
 
 
 def test_the_examples_in_the_docstrings():
-    failed, run = doctest.testmod(samplekit.api)
+    failed, run = doctest.testmod(samplekit._api)
     assert run > 5
     assert failed == 0
 

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 from scipy.ndimage import gaussian_filter
 from skimage.metrics import structural_similarity
 
-from samplekit.errors import UsageError
-from samplekit.metrics import BLUR_RADIUS, BLUR_SIGMA, metrics
+from samplekit._errors import UsageError
+from samplekit._metrics import BLUR_RADIUS, BLUR_SIGMA, metrics
 
 NAMES = {"mse", "rmse", "mae", "max_error", "bias", "psnr", "relative_mse", "blurred_mse", "invalid_pixels"}
 
@@ -261,7 +261,7 @@ def test_layouts_of_memory_do_not_matter():
 
 def test_imports_no_more_than_it_needs():
     script = (
-        "import sys; from samplekit.metrics import metrics; metrics([[1.0]], [[0.0]])\n"
+        "import sys; from samplekit._metrics import metrics; metrics([[1.0]], [[0.0]])\n"
         "print(sorted({'OpenImageIO', 'scipy', 'skimage'} & set(sys.modules)))"
     )
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)

@@ -2,8 +2,8 @@
 
 import pytest
 
-from samplekit.errors import UsageError
-from samplekit.parsing import Choice, check_crop, parse_choice, parse_count, parse_crop, parse_seed, parse_size
+from samplekit._errors import UsageError
+from samplekit._parsing import Choice, check_crop, parse_choice, parse_count, parse_crop, parse_seed, parse_size
 
 
 @pytest.mark.parametrize(

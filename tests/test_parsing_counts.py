@@ -1,7 +1,7 @@
 import pytest
 
-from samplekit.errors import UsageError
-from samplekit.parsing import parse_counts
+from samplekit._errors import UsageError
+from samplekit._parsing import parse_counts
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,7 @@
 
 import pytest
 
-from samplekit.quoting import place
+from samplekit._quoting import place
 
 
 def test_place_is_the_line_of_the_stranger(tmp_path):

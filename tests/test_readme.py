@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from samplekit.cli import run
+from samplekit._cli import run
 
 ROOT = Path(__file__).parent.parent
 TEXT = (ROOT / "README.md").read_text(encoding="utf-8")

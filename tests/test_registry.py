@@ -5,8 +5,8 @@ import re
 import pytest
 
 import samplekit
-from samplekit.errors import SamplekitError, UsageError
-from samplekit.registry import BUILTIN, Registry, registry
+from samplekit._errors import SamplekitError, UsageError
+from samplekit._registry import BUILTIN, Registry, registry
 
 TOY = 'SamplerSpec("toy", "toy_points:Toy", "a toy")'
 OFFERS_TOY = f"@hookimpl\ndef samplekit_samplers():\n    return [{TOY}]\n"

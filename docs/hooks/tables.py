@@ -8,8 +8,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from samplekit.cli import words
-from samplekit.registry import registry
+from samplekit._cli import words
+from samplekit._registry import registry
 
 if TYPE_CHECKING:
     from collections.abc import Callable

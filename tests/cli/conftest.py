@@ -8,7 +8,8 @@ from typing import NamedTuple
 
 import pytest
 
-from samplekit.cli import notices, run
+from samplekit._cli import run
+from samplekit.commands import _notices as notices
 
 NOTICE = "samplekit: compiling kernels for this machine"
 PLAIN_TERMINAL = {"TERM": "dumb", "COLUMNS": "200", "_TYPER_FORCE_DISABLE_TERMINAL": "1"}

@@ -4,8 +4,8 @@ import json
 
 import pytest
 
-from samplekit.study import pool
-from samplekit.study.results import SCHEMA, from_json
+from samplekit._study import pool
+from samplekit._study.results import SCHEMA, from_json
 
 ASK = ("compare", "-s", "random", "-s", "jittered", "--scene", "disk", "--spp", "4,13")
 ASK += ("--trials", "6", "--size", "1", "--budget", "0")

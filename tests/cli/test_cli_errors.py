@@ -6,9 +6,10 @@ import sys
 
 import pytest
 
-from samplekit.integration import plan, renderer
-from samplekit.registry import registry
-from samplekit.sampling import configured
+from samplekit._chosen import sampler as configured
+from samplekit._integrate import plan
+from samplekit._integrate import rendering as renderer
+from samplekit._registry import registry
 
 GOOD = {"sampler": "hammersley", "spp": "4", "size": "8", "scene": "zoneplate"}
 

@@ -17,13 +17,13 @@ def here(*names):
 
 import samplekit
 found = {{"import samplekit": here(*{heavy})}}
-from samplekit.cli import run
+from samplekit._cli import run
 for arguments in {commands}:
     with contextlib.redirect_stdout(io.StringIO()) as out:
         status = run(arguments)
     found[" ".join(arguments)] = [status, len(out.getvalue()) > 10, here(*{heavy})]
 folders = ["samplers", "scenes", "randomizers"]
-found["implementations"] = here(*["samplekit.builtin." + folder for folder in folders])
+found["implementations"] = here(*["samplekit._builtin." + folder for folder in folders])
 print(json.dumps(found))
 """
 
@@ -66,7 +66,7 @@ def completed(plugins, tmp_path):
     program = (
         "import atexit, sys\n"
         f"atexit.register(lambda: print(sorted(set({HEAVY}) & set(sys.modules)), file=sys.stderr))\n"
-        "from samplekit.cli import main\nmain()"
+        "from samplekit._cli import main\nmain()"
     )
 
     def complete(words, place=None):
@@ -136,10 +136,10 @@ def test_rendering_without_error_imports_neither_metrics_nor_statistics(tmp_path
     found = driven([[*arguments, "--no-error", "--json"]], heavy, tmp_path)
     assert found[" ".join([*arguments, "--no-error", "--json"])] == [0, True, []]
     # Of the implementations those that were asked for.
-    assert not {"samplekit.builtin.scenes.gaussian", "samplekit.builtin.samplers.radical_inverses"} & set(
+    assert not {"samplekit._builtin.scenes.gaussian", "samplekit._builtin.samplers.radical_inverses"} & set(
         found["implementations"]
     )
-    assert {"samplekit.builtin.scenes.disk", "samplekit.builtin.samplers.sobol"} <= set(found["implementations"])
+    assert {"samplekit._builtin.scenes.disk", "samplekit._builtin.samplers.sobol"} <= set(found["implementations"])
 
 
 def test_rendering_with_error_imports_no_statistics_and_no_scikit_image(tmp_path):

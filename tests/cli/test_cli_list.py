@@ -2,7 +2,7 @@
 
 import pytest
 
-from samplekit.registry import BUILTIN, Registry
+from samplekit._registry import BUILTIN, Registry
 
 KINDS = ("samplers", "scenes", "randomizers", "plugins")
 

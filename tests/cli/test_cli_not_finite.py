@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import samplekit
-from samplekit.images.exr import read_parts
-from samplekit.images.png import RESERVED, read_png
+from samplekit.files._images.exr import read_parts
+from samplekit.files._images.png import RESERVED, read_png
 
 INFINITE = ("--scene", "power", "--sampler", "sobol")
 

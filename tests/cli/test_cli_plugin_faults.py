@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import samplekit
-from samplekit.cli import run
+from samplekit._cli import run
 
 TOY_SAMPLER = 'SamplerSpec("toy", "toy_points:Toy", "a toy")'
 TOY_SCENE = 'SceneSpec("toy", "toy_scene:Toy", "a toy")'

@@ -8,8 +8,8 @@ import time
 
 import pytest
 
-from samplekit.cli.progress import Progress
-from samplekit.integration import renderer
+from samplekit._integrate import rendering as renderer
+from samplekit.commands._progress import Progress
 
 
 @pytest.fixture

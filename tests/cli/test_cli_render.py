@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 
 import samplekit
-from samplekit.cli import run
-from samplekit.images.exr import read_parts
-from samplekit.images.info import read_info
-from samplekit.images.png import read_png
-from samplekit.integration.estimator import Estimator
+from samplekit._cli import run
+from samplekit._integrate.loop import Estimator
+from samplekit.files._images.exr import read_parts
+from samplekit.files._images.info import read_info
+from samplekit.files._images.png import read_png
 
 SMALL = ("--sampler", "hammersley", "--spp", "4", "--size", "8")
 CONTRACT = ["mse", "rmse", "mae", "max_error", "bias", "psnr", "samples", "dims", "pixels_sampled", "pixels_left_out"]

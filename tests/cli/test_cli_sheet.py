@@ -6,10 +6,10 @@ import sys
 
 import pytest
 
-from samplekit.cli import run, words
-from samplekit.cli.sheet import describe, lines
-from samplekit.registry import Plugin, registry
-from samplekit.specs import GridStrata, LatinStrata, MinimumDistance, Net, Option, OrthogonalArray, SamplerSpec
+from samplekit._cli import run, words
+from samplekit._cli.sheet import describe, lines
+from samplekit._registry import Plugin, registry
+from samplekit._specs import GridStrata, LatinStrata, MinimumDistance, Net, Option, OrthogonalArray, SamplerSpec
 
 PLUGIN = Plugin("toys", "Toys", "1.0")
 
@@ -146,8 +146,8 @@ def test_progressivity_in_words():
 
 def test_a_plain_name_imports_no_implementation():
     code = (
-        "import sys; from samplekit.cli import run; run(['list', 'samplers', 'sobol']);"
-        "print(sorted({'numpy', 'numba', 'samplekit.builtin.samplers.sobol'} & set(sys.modules)))"
+        "import sys; from samplekit._cli import run; run(['list', 'samplers', 'sobol']);"
+        "print(sorted({'numpy', 'numba', 'samplekit._builtin.samplers.sobol'} & set(sys.modules)))"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.splitlines()[-1] == "[]"

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from samplekit.cli import run
+from samplekit._cli import run
 
 ROOT = Path(__file__).parent.parent.parent
 # The pages for authors of plugins are whole examples: their own tests build and run them.

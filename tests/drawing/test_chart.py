@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from samplekit.drawing.axis import Axis, spanning
-from samplekit.drawing.chart import Chart, legend
-from samplekit.drawing.drawing import Band, Disks, Drawing, Line, Text
-from samplekit.drawing.raster import draw_pixels
-from samplekit.drawing.series import style
-from samplekit.drawing.vector import svg_text
+from samplekit._drawing.axis import Axis, spanning
+from samplekit._drawing.chart import Chart, legend
+from samplekit._drawing.drawing import Band, Disks, Drawing, Line, Text
+from samplekit._drawing.raster import draw_pixels
+from samplekit._drawing.series import style
+from samplekit._drawing.vector import svg_text
 
 
 def chart(x: Axis, y: Axis) -> Chart:

@@ -6,9 +6,9 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import pytest
 
-from samplekit.drawing.drawing import Band, Disks, Drawing, Line, Text, label, round_ticks
-from samplekit.drawing.raster import draw_pixels
-from samplekit.drawing.vector import svg_text
+from samplekit._drawing.drawing import Band, Disks, Drawing, Line, Text, label, round_ticks
+from samplekit._drawing.raster import draw_pixels
+from samplekit._drawing.vector import svg_text
 
 
 def covered(drawing: Drawing, scale: int = 1) -> float:

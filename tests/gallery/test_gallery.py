@@ -5,10 +5,10 @@ import re
 
 import pytest
 
-from samplekit.cli import run
-from samplekit.gallery.figures import all_figures
-from samplekit.gallery.page import page
-from samplekit.images.png import read_png
+from samplekit._cli import run
+from samplekit._gallery.figures import all_figures
+from samplekit._gallery.page import page
+from samplekit.files._images.png import read_png
 
 
 def test_picture_is_made_once_and_the_same_each_time(tmp_path, capsys):
@@ -17,7 +17,7 @@ def test_picture_is_made_once_and_the_same_each_time(tmp_path, capsys):
     assert run(arguments) == 0
     path = folder / "random-and-jittered.png"
     first = path.read_bytes()
-    assert json.loads(capsys.readouterr().out) == {"schema": "samplekit.gallery/1", "made": [str(path)], "kept": []}
+    assert json.loads(capsys.readouterr().out) == {"schema": "samplekit._gallery/1", "made": [str(path)], "kept": []}
     assert run(arguments) == 0
     assert json.loads(capsys.readouterr().out)["kept"] == [str(path)]
     assert run([*arguments, "--fresh"]) == 0
@@ -27,7 +27,7 @@ def test_picture_is_made_once_and_the_same_each_time(tmp_path, capsys):
 
 def test_picture_of_other_sources_is_made_anew(tmp_path, capsys, monkeypatch):
     arguments = ["gallery", "--output", str(tmp_path), "--only", "sampler-regular", "--json"]
-    monkeypatch.setattr("samplekit.gallery.runner.made_from", lambda: "another")
+    monkeypatch.setattr("samplekit._gallery.runner.made_from", lambda: "another")
     assert run(arguments) == 0
     monkeypatch.undo()
     capsys.readouterr()

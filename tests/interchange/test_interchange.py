@@ -11,7 +11,7 @@ import pandas
 import pytest
 
 import samplekit
-from samplekit.cli import run
+from samplekit._cli import run
 
 BESIDE = Path(sys.executable).parent
 

@@ -15,8 +15,8 @@ if len(sys.argv) > 1:
 import numpy as np
 
 import samplekit
-from samplekit.integration.configured import configured_scene
-from samplekit.registry import registry
+from samplekit._chosen.scene import configured_scene
+from samplekit._registry import registry
 
 
 def numbers() -> dict[str, list[str]]:

@@ -12,8 +12,8 @@ from fuzzing.doors import Doors
 from fuzzing.files import Bomb
 
 from samplekit import UsageError
-from samplekit.cli import notices
-from samplekit.pointsets.read import read_points
+from samplekit.commands import _notices as notices
+from samplekit.files._pointsets.read import read_points
 
 
 @pytest.fixture(scope="module")

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import samplekit
-from samplekit.cli import run
+from samplekit._cli import run
 
 HERE = Path(__file__).parent
 PROGRAM = (str(HERE / "platform_numbers.py"),)
@@ -105,8 +105,8 @@ def test_threads_change_no_number_of_a_study():
 def test_optimised_checks_and_help_are_there(tmp_path):
     """No check is an assert, and no docstring is needed: wrong use is refused, and a broken sampler is found out."""
     program = (
-        "from samplekit.cli import run\n"
-        "from samplekit.conformance.mutants import MUTANTS\n"
+        "from samplekit._cli import run\n"
+        "from samplekit.testing._mutants import MUTANTS\n"
         "assert False\n"
         "codes = [run(['render', '-s', 'jittered', '-n', '7', '--size', '8'])]\n"
         "codes += [run(['--help']), run(['points', '--help'])]\n"
@@ -137,7 +137,7 @@ def test_words_and_numbers_in_any_locale(environment, tmp_path):
         "import locale, sys\n"
         "try: locale.setlocale(locale.LC_ALL, '')\n"
         "except locale.Error: pass\n"
-        "from samplekit.cli import run\n"
+        "from samplekit._cli import run\n"
         "for words in ('points -s random -n 2 -o a.csv', 'points -s halton -n 3', 'list', '--help', 'render --help',\n"
         "  'compare -s random -s jittered --scene gaussian --spp 4,16 --trials 8 --size 1 --budget 0.1 -o study',\n"
         "  'stability -s random --scene spike:area=0.1 --count 4',\n"

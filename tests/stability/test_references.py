@@ -62,7 +62,7 @@ def test_the_search_finds_nothing(name):
 
 def test_the_search_finds_what_is_wrong(monkeypatch):
     """A reference that is off by 3e-14 in one corner of the picture."""
-    from samplekit.builtin.scenes.disk import Disk
+    from samplekit._builtin.scenes.disk import Disk
 
     true = Disk.exact
 

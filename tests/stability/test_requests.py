@@ -5,8 +5,8 @@ import pytest
 
 import samplekit
 from samplekit import Realizations, UsageError
-from samplekit.counts import nearest_above
-from samplekit.registry import BUILTIN, registry
+from samplekit._registry import BUILTIN, registry
+from samplekit._specs.counts import nearest_above
 
 SEEDS = (0, 1, 2**63, 2**64 - 1)
 INDICES = (0, 2**24, 2**31, 2**32, 2**40, 2**53)

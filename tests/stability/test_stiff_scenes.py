@@ -9,12 +9,12 @@ from mpmath import mp, mpf
 
 import samplekit
 from samplekit import UsageError
-from samplekit.conformance import check_scene
-from samplekit.conformance.result import broken
-from samplekit.integration.estimator import UNIT_SQUARE
-from samplekit.integration.samples import sample_values
-from samplekit.registry import BUILTIN, registry
-from samplekit.stability.sweep import scenes_of
+from samplekit._integrate.loop import UNIT_SQUARE
+from samplekit._integrate.samples import sample_values
+from samplekit._registry import BUILTIN, registry
+from samplekit._stability.sweep import scenes_of
+from samplekit.testing import check_scene
+from samplekit.testing._result import broken
 
 ROUNDOFF = 2.0**-53
 PLANE = ("disk", "ellipse", "gaussian", "zoneplate", "step", "checker", "power", "spike", "oscillating")

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 
 import samplekit
-from samplekit.integration.estimator import UNIT_SQUARE, Estimator, Seconds
-from samplekit.integration.samples import sample_values
-from samplekit.numerics.row_sums import row_sums
-from samplekit.numerics.summation import BLOCK, PairwiseSum
-from samplekit.sampling.realizations import Realizations
-from samplekit.stability.extended import ExtendedSums
+from samplekit._bases.realizations import Realizations
+from samplekit._integrate.loop import UNIT_SQUARE, Estimator, Seconds
+from samplekit._integrate.samples import sample_values
+from samplekit._stability.extended import ExtendedSums
+from samplekit.kernels._row_sums import row_sums
+from samplekit.kernels._sums import BLOCK, PairwiseSum
 
 ROUNDOFF = Fraction(1, 2**53)
 IN_A_BLOCK = 27

@@ -7,10 +7,10 @@ import pytest
 
 import samplekit
 from samplekit import Option, SceneSpec
-from samplekit.integration.reference import Reference
-from samplekit.stability.cell import measure
-from samplekit.stability.sweep import precision_lost_beyond, scenes_of, sweep
-from samplekit.stability.verdict import judge
+from samplekit._integrate.reference import Reference
+from samplekit._stability.cell import measure
+from samplekit._stability.sweep import precision_lost_beyond, scenes_of, sweep
+from samplekit._stability.verdict import judge
 
 EDGES = np.array([0.0, 1.0])
 

@@ -5,10 +5,10 @@ from itertools import pairwise
 
 import pytest
 
-from samplekit.study.crossings import crossings
-from samplekit.study.ranking import flips, front, targets, times_to_target
-from samplekit.study.results import Clock, Interval, Row, Spread, Times
-from samplekit.study.sentences import seconds_in_words, sentences
+from samplekit._study.crossings import crossings
+from samplekit._study.ranking import flips, front, targets, times_to_target
+from samplekit._study.results import Clock, Interval, Row, Spread, Times
+from samplekit._study.sentences import seconds_in_words, sentences
 
 
 def row(sampler, count, mse, time, width=1.1, scene="disk"):

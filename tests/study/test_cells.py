@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 import samplekit
-from samplekit.errors import UsageError
-from samplekit.study.cells import lay_out
-from samplekit.study.request import checked_request
-from samplekit.study.subjects import Subjects
+from samplekit._errors import UsageError
+from samplekit._study.cells import lay_out
+from samplekit._study.request import checked_request
+from samplekit._study.subjects import Subjects
 
 
 def cells_of(samplers, counts, *, scenes=("disk",), trials=8, size=(1, 1)):

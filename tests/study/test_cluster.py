@@ -8,7 +8,7 @@ import warnings
 import pytest
 
 import samplekit
-from samplekit.errors import UsageError
+from samplekit._errors import UsageError
 
 ASK = (["random", "sobol+owen"], ["disk"], [16, 256])
 
@@ -46,7 +46,7 @@ def test_errors_are_those_of_one_machine_also_when_a_worker_dies(cluster):
 
 @pytest.mark.filterwarnings("ignore")
 def test_no_scheduler(monkeypatch):
-    from samplekit.study import cluster
+    from samplekit._study import cluster
 
     monkeypatch.setattr(cluster, "_PATIENCE", 0.5)
     with pytest.raises(UsageError, match="no Dask scheduler answers at"):

@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 
 import samplekit
-from samplekit.errors import UsageError
-from samplekit.images.exr import read_parts
-from samplekit.study.results import from_json, to_json
+from samplekit._errors import UsageError
+from samplekit._study.results import from_json, to_json
+from samplekit.files._images.exr import read_parts
 
 COURSE = {
     ("random", "disk"): -1.0,

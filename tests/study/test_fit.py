@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from samplekit.study.fit import fit_line
+from samplekit._study.fit import fit_line
 
 COUNTS = [2**k for k in range(4, 11)]
 

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import samplekit
-from samplekit.study.errors import errors_of, ratio_of
-from samplekit.study.intervals import mean_interval, positive_interval
-from samplekit.study.jobs import Job
-from samplekit.study.subjects import Subjects
-from samplekit.study.trials import COLUMNS, ERROR, PAIRS, PRODUCT, SQUARE, TRIALS, carry_out
+from samplekit._study.errors import errors_of, ratio_of
+from samplekit._study.intervals import mean_interval, positive_interval
+from samplekit._study.jobs import Job
+from samplekit._study.subjects import Subjects
+from samplekit._study.trials import COLUMNS, ERROR, PAIRS, PRODUCT, SQUARE, TRIALS, carry_out
 
 STUDIES, COUNT = 400, 16
 

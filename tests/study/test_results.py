@@ -8,8 +8,8 @@ from dataclasses import replace
 import pytest
 
 import samplekit
-from samplekit.errors import UsageError
-from samplekit.study.results import SCHEMA, from_json, to_json
+from samplekit._errors import UsageError
+from samplekit._study.results import SCHEMA, from_json, to_json
 
 
 @pytest.fixture(scope="module")
@@ -35,7 +35,7 @@ def test_old_results_have_no_crossings(results):
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"schema": "samplekit.study/0"}, "version 'samplekit.study/0'.*run the study anew"),
+        ({"schema": "samplekit._study/0"}, "version 'samplekit._study/0'.*run the study anew"),
         ({"trials": "many"}, "damaged"),
         ({"surprise": 1}, "damaged"),
         ({"rows": [{}]}, "damaged"),

@@ -6,15 +6,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from samplekit.errors import SamplekitError, UsageError
-from samplekit.study.cells import lay_out
-from samplekit.study.folder import check_folder
-from samplekit.study.jobs import Job
-from samplekit.study.request import checked_request
-from samplekit.study.rows import Analysis
-from samplekit.study.store import NAME, Store
-from samplekit.study.subjects import Subjects
-from samplekit.study.trials import COLUMNS, carry_out
+from samplekit._errors import SamplekitError, UsageError
+from samplekit._study.cells import lay_out
+from samplekit._study.folder import check_folder
+from samplekit._study.jobs import Job
+from samplekit._study.request import checked_request
+from samplekit._study.rows import Analysis
+from samplekit._study.store import NAME, Store
+from samplekit._study.subjects import Subjects
+from samplekit._study.trials import COLUMNS, carry_out
 
 REQUEST = checked_request(["disk"], ["random"], [4], 8, (1, 1), 0)
 VERSIONS = {"samplekit": "0.1.0", "numpy": "2.0"}

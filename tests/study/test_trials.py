@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 
 import samplekit
-from samplekit.integration.estimator import UNIT_SQUARE, Estimator, Seconds
-from samplekit.metrics import metrics
-from samplekit.sampling.realizations import Realizations
-from samplekit.study.cells import lay_out
-from samplekit.study.jobs import Job, batch_of, gaps, split
-from samplekit.study.prefixes import prefix_means
-from samplekit.study.request import checked_request
-from samplekit.study.subjects import Subjects
-from samplekit.study.trials import BLURRED, ERROR, INVALID, PAIRS, PRODUCT, SQUARE, TRIALS, carry_out, seed_of
+from samplekit._bases.realizations import Realizations
+from samplekit._integrate.loop import UNIT_SQUARE, Estimator, Seconds
+from samplekit._metrics import metrics
+from samplekit._study.cells import lay_out
+from samplekit._study.jobs import Job, batch_of, gaps, split
+from samplekit._study.prefixes import prefix_means
+from samplekit._study.request import checked_request
+from samplekit._study.subjects import Subjects
+from samplekit._study.trials import BLURRED, ERROR, INVALID, PAIRS, PRODUCT, SQUARE, TRIALS, carry_out, seed_of
 
 
 def job(sampler, counts, first, last, *, batch=1, size=(1, 1), scene="disk", seed=5):

@@ -15,11 +15,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.cache import cached_array
-from samplekit.numerics.kernel import kernel
-from samplekit.sampling.hashing import below, hash_index, mix64, second_key, unit
-from samplekit.sampling.realizations import Realizations
-from samplekit.sampling.sampler import Sampler
+from samplekit import Realizations, Sampler
+from samplekit.files import cached_array
+from samplekit.kernels import below, hash_index, kernel, mix64, second_key, unit
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -23,8 +23,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.numerics.kernel import helper, kernel
-from samplekit.sampling.hashing import TWO_M32, below, dimension_key, hash_index, second_key
+from samplekit.kernels import TWO_M32, below, dimension_key, hash_index, helper, kernel, second_key
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

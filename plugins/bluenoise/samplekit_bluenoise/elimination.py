@@ -20,8 +20,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.numerics.kernel import helper, kernel
-from samplekit.sampling.hashing import dimension_key, hash_index, second_key, unit
+from samplekit.kernels import dimension_key, hash_index, helper, kernel, second_key, unit
 from samplekit_bluenoise.torus import wrapped
 
 if TYPE_CHECKING:

@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.numerics.kernel import helper, kernel
-from samplekit.sampling.hashing import hash_index, second_key, unit
+from samplekit.kernels import hash_index, helper, kernel, second_key, unit
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.numerics.kernel import helper, kernel
-from samplekit.sampling.permutation import shuffle
+from samplekit.kernels import helper, kernel, shuffle
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

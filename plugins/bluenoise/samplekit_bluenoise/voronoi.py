@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.numerics.kernel import helper, kernel
+from samplekit.kernels import helper, kernel
 from samplekit_bluenoise.torus import on_torus, sort_into_cells
 
 if TYPE_CHECKING:

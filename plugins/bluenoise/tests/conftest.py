@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from samplekit_bluenoise import bank
 
-from samplekit import cache
+from samplekit.files import _cache as cache
 
 
 @pytest.fixture(scope="session", autouse=True)

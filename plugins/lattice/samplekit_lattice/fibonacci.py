@@ -11,11 +11,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit import Sampler, UsageError
-from samplekit.counts import fibonacci_numbers
-from samplekit.numerics.kernel import kernel
-from samplekit.sampling.hashing import below, dimension_key, second_key
-from samplekit.sampling.stratification import offset_bits, place_in_cell
+from samplekit import Sampler, UsageError, fibonacci_numbers
+from samplekit.kernels import below, dimension_key, kernel, offset_bits, place_in_cell, second_key
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from samplekit.numerics.kernel import helper
-from samplekit.sampling.hashing import unit
+from samplekit.kernels import helper, unit
 
 if TYPE_CHECKING:
     import numpy as np

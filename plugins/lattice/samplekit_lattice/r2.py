@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit import Sampler
-from samplekit.numerics.kernel import kernel
+from samplekit.kernels import kernel
 from samplekit_lattice.fixed_point import CHUNK, write_shifted
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit import Sampler
-from samplekit.numerics.kernel import kernel, reverse_bits32
+from samplekit.kernels import kernel, reverse_bits32
 from samplekit_lattice.fixed_point import CHUNK, write_shifted
 
 if TYPE_CHECKING:

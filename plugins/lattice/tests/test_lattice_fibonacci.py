@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import samplekit
-from samplekit.counts import fibonacci_numbers
+from samplekit._specs.counts import fibonacci_numbers
 
 REALIZATIONS = 100
 

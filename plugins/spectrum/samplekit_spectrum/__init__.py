@@ -8,8 +8,7 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
-from samplekit.hookspecs import hookimpl
-from samplekit.specs import CommandSpec
+from samplekit import CommandSpec, hookimpl
 
 if TYPE_CHECKING:
     from samplekit_spectrum.prediction import predict

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.counts import grid_sides
+from samplekit import grid_sides
 
 if TYPE_CHECKING:
     from samplekit_spectrum.integrands.integrand import Integrand

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.errors import SamplekitError, UsageError
+from samplekit import SamplekitError, UsageError
 from samplekit_spectrum.radial import Radial
 
 if TYPE_CHECKING:
@@ -65,7 +65,7 @@ def read_error(path: Path) -> NDArray[np.float64]:
     SamplekitError
         It is damaged.
     """
-    from samplekit.images.exr import read_parts
+    from samplekit.files import read_parts
 
     parts = read_parts(path).parts
     if "error" not in parts:

@@ -14,9 +14,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.errors import SamplekitError
-from samplekit.integration.threads import check_threads
-from samplekit.sampling.realizations import Realizations
+from samplekit import Realizations, SamplekitError
+from samplekit._integrate.threads import check_threads
 from samplekit_spectrum.exponentials import add_sums
 from samplekit_spectrum.frequencies import Cube, Frequencies, Listed
 from samplekit_spectrum.moments import Moments

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.numerics.kernel import fma, helper, kernel
+from samplekit.kernels import fma, helper, kernel
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

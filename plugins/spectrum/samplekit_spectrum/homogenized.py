@@ -12,10 +12,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.builtin.randomizers.shift import Shift
-from samplekit.sampling.configured import ConfiguredSampler
-from samplekit.sampling.randomizer import RandomizedSampler
-from samplekit.sampling.realizations import Realizations
+from samplekit import ConfiguredSampler, Realizations
+from samplekit._bases.randomizer import RandomizedSampler
+from samplekit._builtin.randomizers.shift import Shift
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

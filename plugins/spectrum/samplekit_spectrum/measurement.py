@@ -10,16 +10,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.errors import SamplekitError
-from samplekit.integration.estimator import UNIT_SQUARE, Estimator, Seconds
-from samplekit.integration.threads import check_threads
-from samplekit.sampling.realizations import Realizations
+from samplekit import Realizations, SamplekitError
+from samplekit._integrate.loop import UNIT_SQUARE, Estimator, Seconds
+from samplekit._integrate.threads import check_threads
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from samplekit.integration.configured import ConfiguredScene
-    from samplekit.sampling.configured import ConfiguredSampler
+    from samplekit import ConfiguredSampler, ConfiguredScene
 
 Progress = Callable[[int, int], None]
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.numerics.kernel import kernel
+from samplekit.kernels import kernel
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -7,13 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from samplekit.drawing.raster import draw_pixels
-from samplekit.drawing.vector import svg_text
-from samplekit.errors import UsageError
-from samplekit.images.exr import parts_writer
-from samplekit.images.files import check_targets, shown, write_group
-from samplekit.images.png import png_writer
-from samplekit.pointsets.verified import text_writer
+from samplekit import UsageError
+from samplekit._drawing.raster import draw_pixels
+from samplekit._drawing.vector import svg_text
+from samplekit.files import check_targets, parts_writer, png_writer, shown, text_writer, write_group
 from samplekit_spectrum.frequencies import Cube, Listed
 from samplekit_spectrum.picture import Panel, maps_picture, spectrum_picture
 from samplekit_spectrum.plot import radial_plot, spectrum_plot
@@ -22,8 +19,8 @@ from samplekit_spectrum.tables import listed_csv, radial_csv
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from samplekit.drawing.drawing import Drawing
-    from samplekit.images.files import Writer
+    from samplekit._drawing.drawing import Drawing
+    from samplekit.files import Writer
     from samplekit_spectrum.error_image import ErrorSpectrum
     from samplekit_spectrum.spectrum import Spectrum
 

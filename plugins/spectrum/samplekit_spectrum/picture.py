@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from samplekit.drawing.drawing import Bitmap, Drawing, Text, label, rgb
-from samplekit.drawing.raster import draw_pixels
-from samplekit.images.png import write_png
+from samplekit._drawing.drawing import Bitmap, Drawing, Text, label, rgb
+from samplekit._drawing.raster import draw_pixels
+from samplekit.files import write_png
 from samplekit_spectrum.frequencies import Cube
 
 if TYPE_CHECKING:

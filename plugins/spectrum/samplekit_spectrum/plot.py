@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.drawing.drawing import CURVE, GRID, GUIDE, Band, Drawing, Line, Text, label, round_ticks
+from samplekit._drawing.drawing import CURVE, GRID, GUIDE, Band, Drawing, Line, Text, label, round_ticks
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -11,9 +11,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from samplekit.integration.configured import ConfiguredScene, configured_scene
-from samplekit.sampling.configured import ConfiguredSampler, configured_sampler
-from samplekit.sampling.realizations import check_seed
+from samplekit import ConfiguredSampler, ConfiguredScene, check_seed
+from samplekit._chosen.sampler import configured_sampler
+from samplekit._chosen.scene import configured_scene
 from samplekit_spectrum.homogenized import homogenized, is_homogeneous
 from samplekit_spectrum.integrands import integrand_of
 from samplekit_spectrum.measurement import TRIALS, ZERO, Measurement, measure

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.errors import UsageError
+from samplekit import UsageError
 from samplekit_spectrum.frequencies import Cube, Frequencies, Listed
 
 if TYPE_CHECKING:

@@ -12,8 +12,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from samplekit.sampling.configured import ConfiguredSampler
-    from samplekit.sampling.realizations import Realizations
+    from samplekit import ConfiguredSampler, Realizations
     from samplekit_spectrum.transform import Chunks
 
 CHUNK = 2**20

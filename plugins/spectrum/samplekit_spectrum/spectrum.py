@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.errors import UsageError
-from samplekit.sampling.configured import ConfiguredSampler, configured_sampler
-from samplekit.sampling.realizations import check_seed
+from samplekit import ConfiguredSampler, UsageError, check_seed
+from samplekit._chosen.sampler import configured_sampler
 from samplekit_spectrum.bias import Bias, find_bias
 from samplekit_spectrum.expectation import View, expectations
 from samplekit_spectrum.frequencies import Cube, Frequencies
@@ -114,7 +113,7 @@ class Spectrum:
 
         if self.frequencies.dims > 1:
             return png_bytes(spectrum_picture([self])[0])
-        from samplekit.drawing.raster import draw_pixels
+        from samplekit._drawing.raster import draw_pixels
         from samplekit_spectrum.plot import spectrum_plot
 
         return png_bytes(draw_pixels(spectrum_plot(self)))

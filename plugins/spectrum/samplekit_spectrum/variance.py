@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.sampling.configured import configured_sampler
+from samplekit._chosen.sampler import configured_sampler
 from samplekit_spectrum.allocation import PILOT, Stratum, mean_and_error, refine
 from samplekit_spectrum.dual_lattice import variance_on_grid
 from samplekit_spectrum.expectation import expectations
@@ -27,7 +27,7 @@ from samplekit_spectrum.measurement import ZERO
 from samplekit_spectrum.regions import axis, outer_power, reaches, regions, square
 
 if TYPE_CHECKING:
-    from samplekit.sampling.configured import ConfiguredSampler
+    from samplekit import ConfiguredSampler
     from samplekit_spectrum.integrands.integrand import Integrand
     from samplekit_spectrum.moments import Moments
     from samplekit_spectrum.regions import Region

@@ -7,7 +7,7 @@ import pytest
 from samplekit_spectrum import power
 from scipy.stats import norm
 
-from samplekit.counts import grid_sides
+from samplekit._specs.counts import grid_sides
 
 FALSE_ALARM = 1e-3
 
@@ -137,7 +137,7 @@ def test_jitter_in_one_and_three_dimensions(dims, reach):
 
 def bluenoise(name):
     pytest.importorskip("samplekit_bluenoise")
-    from samplekit.registry import registry
+    from samplekit._registry import registry
 
     if name not in registry().all("sampler"):
         pytest.skip(f"no sampler {name}")

@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 from samplekit_spectrum import power
 
-from samplekit.cli import run
-from samplekit.images.exr import read_parts
-from samplekit.images.png import read_png
+from samplekit._cli import run
+from samplekit.files._images.exr import read_parts
+from samplekit.files._images.png import read_png
 
 
 @pytest.fixture
@@ -147,7 +147,7 @@ def test_wrong_use_has_status_2_one_line_and_no_files(arguments, here, capsys):
 
 
 def test_an_interrupt_writes_what_is_done_if_an_output_was_given(here, capsys, monkeypatch):
-    from samplekit.cli.progress import Progress
+    from samplekit.commands._progress import Progress
 
     def interrupt(self, done, total):
         if done >= 100:
@@ -172,7 +172,7 @@ def test_declaring_imports_no_numpy():
 @pytest.mark.parametrize("command", ["spectrum", "predict"])
 def test_without_the_plugin_the_command_says_where_it_is(command):
     """In another process: the registry of this one has it already."""
-    code = f"from samplekit.cli import run; raise SystemExit(run(['{command}']))"
+    code = f"from samplekit._cli import run; raise SystemExit(run(['{command}']))"
     environment = {**os.environ, "SAMPLEKIT_PLUGINS": ""}
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, env=environment)
     assert done.returncode == 2

@@ -8,7 +8,7 @@ from samplekit_spectrum.plot import radial_plot
 from samplekit_spectrum.radial import Radial
 from samplekit_spectrum.spectrum import powers
 
-from samplekit.drawing.drawing import Text, rgb
+from samplekit._drawing.drawing import Text, rgb
 
 
 def test_greys_are_proportional_and_what_is_beyond_or_missing_has_its_own_colour():

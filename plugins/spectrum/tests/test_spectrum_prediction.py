@@ -14,9 +14,9 @@ from scipy.stats import chi2
 
 import samplekit
 from samplekit import Sampler
-from samplekit.cli import run
-from samplekit.errors import UsageError
-from samplekit.sampling.realizations import Realizations
+from samplekit._bases.realizations import Realizations
+from samplekit._cli import run
+from samplekit._errors import UsageError
 
 
 @pytest.mark.parametrize("scene", ["disk", "gaussian", "step"])

@@ -23,7 +23,7 @@ def test_points_keep_the_number_of_digits_that_they_share(text):
 @pytest.mark.parametrize("name", ["sobol", "hammersley", "halton", "van-der-corput"])
 def test_scrambling_is_the_same_fused_and_apart(name):
     """Sobol' scrambles its integers at once; the randomizer does the same to finished points."""
-    from samplekit.builtin.randomizers.owen import Owen
+    from samplekit._builtin.randomizers.owen import Owen
 
     dims = 1 if name == "van-der-corput" else 4
     realizations = samplekit.Realizations.of_trials(0, 6, 2)

@@ -10,7 +10,7 @@ import pytest
 from scipy import stats
 
 import samplekit
-from samplekit.builtin import samplekit_randomizers, samplekit_samplers
+from samplekit._builtin import samplekit_randomizers, samplekit_samplers
 
 CHOICES = [
     text

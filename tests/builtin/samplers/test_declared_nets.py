@@ -11,7 +11,7 @@ import pytest
 
 import samplekit
 from samplekit import Net
-from samplekit.builtin import samplekit_samplers
+from samplekit._builtin import samplekit_samplers
 
 MOST_POINTS = 4096
 CASES = [

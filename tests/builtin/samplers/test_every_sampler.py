@@ -7,7 +7,7 @@ import pytest
 
 import samplekit
 from samplekit import Realizations, UsageError
-from samplekit.builtin import samplekit_randomizers, samplekit_samplers
+from samplekit._builtin import samplekit_randomizers, samplekit_samplers
 
 OPTIONS = ["halton:scramble=digits", "halton:scramble=owen", "halton:scramble=owen+owen", "faure:base=31+owen"]
 CHOICES = OPTIONS + [

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import samplekit
-from samplekit.builtin.samplers.niederreiter import irreducible_polynomials
+from samplekit._builtin.samplers.niederreiter import irreducible_polynomials
 
 
 def times(a, b):

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import samplekit
-from samplekit.sampling.realizations import Realizations
-from samplekit.specs import LatinStrata, OrthogonalArray
+from samplekit._bases.realizations import Realizations
+from samplekit._specs import LatinStrata, OrthogonalArray
 
 REALIZATIONS = 100
 STYLES = ("jittered", "multi-jittered", "correlated")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import samplekit
-from samplekit.sampling.padded_sequence import group_tables
+from samplekit.kernels._padded_sequence import group_tables
 
 
 @pytest.mark.parametrize("dims", [1, 3, 4, 5, 1001])

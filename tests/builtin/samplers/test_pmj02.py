@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import samplekit
-from samplekit.builtin.samplers.pmj02 import pmj02_columns
+from samplekit._builtin.samplers.pmj02 import pmj02_columns
 
 
 def cells(points, digits):

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import samplekit
-from samplekit.builtin.samplers.point_file import row_step
-from samplekit.errors import SamplekitError, UsageError
-from samplekit.pointsets.write import write_points
-from samplekit.sampling.realizations import Realizations
-from samplekit.specs import SamplerSpec
+from samplekit._bases.realizations import Realizations
+from samplekit._builtin.samplers.point_file import row_step
+from samplekit._errors import SamplekitError, UsageError
+from samplekit._specs import SamplerSpec
+from samplekit.files._pointsets.write import write_points
 
 SETS = np.random.default_rng(8).random((5, 12, 3))
 

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 import samplekit
-from samplekit.builtin import samplekit_randomizers, samplekit_samplers
+from samplekit._builtin import samplekit_randomizers, samplekit_samplers
 
 REQUESTS = [
     *(

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import samplekit
-from samplekit.builtin.samplers.uncorrelated_jitter import block_sizes
-from samplekit.counts import grid_sides
-from samplekit.sampling.realizations import Realizations
+from samplekit._bases.realizations import Realizations
+from samplekit._builtin.samplers.uncorrelated_jitter import block_sizes
+from samplekit._specs.counts import grid_sides
 
 REALIZATIONS = 100
 

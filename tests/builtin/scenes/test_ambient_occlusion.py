@@ -7,9 +7,9 @@ from scipy.integrate import quad
 
 import samplekit
 from samplekit import UsageError
-from samplekit.builtin.scenes.ambient_occlusion import AmbientOcclusion
-from samplekit.errors import SamplekitError
-from samplekit.integration.pixel_means import Curves, pixel_means
+from samplekit._builtin.scenes.ambient_occlusion import AmbientOcclusion
+from samplekit._errors import SamplekitError
+from samplekit.quadrature._pixel_means import Curves, pixel_means
 
 
 def picture_of_floor(x, y):

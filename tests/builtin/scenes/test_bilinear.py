@@ -4,7 +4,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from samplekit.builtin.scenes.bilinear import Bilinear
+from samplekit._builtin.scenes.bilinear import Bilinear
 
 
 def boxes_of(x_edges, y_edges):

@@ -3,8 +3,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from samplekit.builtin.scenes.checker import Checker
-from samplekit.errors import UsageError
+from samplekit._builtin.scenes.checker import Checker
+from samplekit._errors import UsageError
 
 LAST = 1 - 2.0**-53
 

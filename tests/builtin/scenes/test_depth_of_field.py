@@ -9,9 +9,9 @@ from scipy.integrate import quad
 
 import samplekit
 from samplekit import UsageError
-from samplekit.builtin.scenes.depth_of_field import FRONT, RING, WALL, DepthOfField
-from samplekit.integration.pixel_means import pixel_means
-from samplekit.integration.scene import Scene
+from samplekit._bases.scene import Scene
+from samplekit._builtin.scenes.depth_of_field import FRONT, RING, WALL, DepthOfField
+from samplekit.quadrature._pixel_means import pixel_means
 
 VARIANTS = [
     {},

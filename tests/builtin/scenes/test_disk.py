@@ -8,8 +8,8 @@ import mpmath
 import numpy as np
 import pytest
 
-from samplekit.builtin.scenes.disk import Disk
-from samplekit.errors import UsageError
+from samplekit._builtin.scenes.disk import Disk
+from samplekit._errors import UsageError
 
 LAST = 1.0 - 2.0**-53
 BOXES = 250
@@ -262,7 +262,7 @@ def test_few_pixels_of_an_image_are_left_to_sample():
 
 NUMBERS = """
 import numpy as np
-from samplekit.builtin.scenes.disk import Disk
+from samplekit._builtin.scenes.disk import Disk
 random = np.random.default_rng(24)
 edges = np.arange(25) / 24
 out = np.empty(8)

@@ -5,8 +5,8 @@ import mpmath
 import numpy as np
 import pytest
 
-from samplekit.builtin.scenes.gaussian import Gaussian
-from samplekit.errors import UsageError
+from samplekit._builtin.scenes.gaussian import Gaussian
+from samplekit._errors import UsageError
 
 LAST = 1 - 2.0**-53
 

@@ -7,8 +7,8 @@ from scipy.integrate import quad
 
 import samplekit
 from samplekit import Scene, UsageError
-from samplekit.builtin.scenes.motion_blur import BOARD, DIRECTION, DISKS, MotionBlur
-from samplekit.integration.pixel_means import pixel_means
+from samplekit._builtin.scenes.motion_blur import BOARD, DIRECTION, DISKS, MotionBlur
+from samplekit.quadrature._pixel_means import pixel_means
 
 VARIANTS = [
     {},

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings, strategies
 
-from samplekit.builtin.scenes.step import Step
-from samplekit.errors import UsageError
+from samplekit._builtin.scenes.step import Step
+from samplekit._errors import UsageError
 
 LAST = 1.0 - 2.0**-53
 BOXES = 200
@@ -171,7 +171,7 @@ def test_constant_pixels_give_that_value_at_every_sample(angle, offset, size):
 
 NUMBERS = """
 import numpy as np
-from samplekit.builtin.scenes.step import Step
+from samplekit._builtin.scenes.step import Step
 random = np.random.default_rng(33)
 edges = np.arange(25) / 24
 out = np.empty(8)

@@ -2,8 +2,8 @@ import mpmath
 import numpy as np
 import pytest
 
-from samplekit.builtin.scenes.zoneplate import ZonePlate
-from samplekit.errors import UsageError
+from samplekit._builtin.scenes.zoneplate import ZonePlate
+from samplekit._errors import UsageError
 
 LAST = 1 - 2.0**-53
 

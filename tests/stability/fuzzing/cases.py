@@ -43,11 +43,11 @@ def command(doors: Doors, seed: str) -> Case:
 
 def string(doors: Doors, seed: str) -> Case:
     """A sampler, scene or list as text, read alone, and completed."""
-    from samplekit import parsing
-    from samplekit.cli.completion import complete_sampler, complete_scene
-    from samplekit.errors import UsageError
-    from samplekit.integration.configured import configured_scene
-    from samplekit.sampling.configured import configured_sampler
+    from samplekit import _parsing as parsing
+    from samplekit._chosen.sampler import configured_sampler
+    from samplekit._chosen.scene import configured_scene
+    from samplekit._errors import UsageError
+    from samplekit.commands._completion import complete_sampler, complete_scene
 
     random = Random(seed)
     kinds: dict[str, tuple[Callable[[Random], str], list[Callable[[str], object]]]] = {

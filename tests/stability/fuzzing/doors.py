@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from fuzzing.files import STUDY, numbers
 from fuzzing.judge import Answer, judge, tree
-from samplekit.cli import notices, run
+from samplekit._cli import run
+from samplekit.commands import _notices as notices
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING
 
-from samplekit.registry import registry
+from samplekit._registry import registry
 
 if TYPE_CHECKING:
     from random import Random

@@ -7,7 +7,7 @@ import importlib
 import sys
 from typing import TYPE_CHECKING
 
-from samplekit.registry import registry
+from samplekit._registry import registry
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -55,7 +55,7 @@ def stranger(folder: Path, random: Random) -> Iterator[str]:
     (info / "entry_points.txt").write_text("[samplekit]\nstranger = stranger_plugin\n", "utf-8")
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: stranger\nVersion: 1.0\n", "utf-8")
     head = "import sys\nimport numpy as np\nfrom samplekit import *\n"
-    head += "from samplekit.sampling.randomizer import Randomizer\n"
+    head += "from samplekit._bases.randomizer import Randomizer\n"
     text = f"{head}@hookimpl\ndef samplekit_{kind}s():\n    {declared}\n"
     (folder / "stranger_plugin.py").write_text(text, "utf-8")
     (folder / "stranger_made.py").write_text(head + _made(kind, random), "utf-8")

@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from samplekit.cli.completion import complete_sampler, complete_scene
-from samplekit.cli.options import JsonOption, SeedOption  # noqa: TC001 (typer reads annotations)
+from samplekit.commands import JsonOption, SeedOption, complete_sampler, complete_scene
 
 if TYPE_CHECKING:
     from samplekit_spectrum.measurement import Measurement
@@ -59,14 +58,14 @@ def predict(
 
     Example: samplekit predict --sampler jittered --scene disk --count 4^2..4^5
     """
-    from samplekit.cli.notices import announce_compilation
+    from samplekit.commands import announce_compilation
 
     announce_compilation()
-    from samplekit.cli.progress import Progress
-    from samplekit.integration.configured import configured_scene
-    from samplekit.integration.threads import check_threads
-    from samplekit.parsing import parse_count, parse_counts, parse_seed
-    from samplekit.sampling.configured import configured_sampler
+    from samplekit._chosen.sampler import configured_sampler
+    from samplekit._chosen.scene import configured_scene
+    from samplekit._integrate.threads import check_threads
+    from samplekit._parsing import parse_count, parse_counts, parse_seed
+    from samplekit.commands import Progress
     from samplekit_spectrum.homogenized import is_homogeneous
     from samplekit_spectrum.integrands import integrand_of
     from samplekit_spectrum.prediction import check_settings

@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from samplekit.cli.completion import complete_sampler
-from samplekit.cli.options import JsonOption, SeedOption  # noqa: TC001 (typer reads annotations)
+from samplekit.commands import JsonOption, SeedOption, complete_sampler
 
 if TYPE_CHECKING:
     from samplekit_spectrum.spectrum import Spectrum
@@ -74,7 +73,7 @@ def spectrum(
 
     Example: samplekit spectrum --sampler jittered --count 256
     """
-    from samplekit.errors import UsageError
+    from samplekit import UsageError
 
     if image:
         if sampler or count:
@@ -82,14 +81,14 @@ def spectrum(
         return _of_image(image, output, json)
     if not sampler or not count:
         raise UsageError("expected --sampler and --count, or --image")
-    from samplekit.cli.notices import announce_compilation
+    from samplekit.commands import announce_compilation
 
     announce_compilation()
     import time
 
-    from samplekit.cli.progress import Progress
-    from samplekit.parsing import parse_count, parse_seed
-    from samplekit.sampling.configured import configured_sampler
+    from samplekit._chosen.sampler import configured_sampler
+    from samplekit._parsing import parse_count, parse_seed
+    from samplekit.commands import Progress
     from samplekit_spectrum.cli.values import parse_positive, parse_projections, parse_vectors
     from samplekit_spectrum.frequencies import Listed
     from samplekit_spectrum.homogenized import homogenized
@@ -173,7 +172,7 @@ def _describe(spectrum: Spectrum, homogenize: bool, project: str, bias: list[Any
     """How the spectrum was made; the same for the same command, so no times and no paths."""
     from importlib.metadata import version
 
-    from samplekit.provenance import versions
+    from samplekit._provenance import versions
     from samplekit_spectrum.frequencies import Cube
 
     words = [f"samplekit spectrum --sampler {chosen.text} --count {spectrum.count}"]
@@ -198,7 +197,7 @@ def _describe(spectrum: Spectrum, homogenize: bool, project: str, bias: list[Any
 def _of_image(image: str, output: str, as_json: bool) -> int:
     from pathlib import Path
 
-    from samplekit.provenance import versions
+    from samplekit._provenance import versions
     from samplekit_spectrum.error_image import error_spectrum, read_error
     from samplekit_spectrum.output import MAPS, RADIAL, check_stem, write_error_spectrum
     from samplekit_spectrum.tables import error_lines, finite, radial_json

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 
-from samplekit.errors import UsageError
+from samplekit import UsageError
 
 MOST_PAIRS = 120
 

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.errors import UsageError
+from samplekit import UsageError
 from samplekit_spectrum.integrands.closed import closed_form
 
 if TYPE_CHECKING:
-    from samplekit.integration.configured import ConfiguredScene
+    from samplekit import ConfiguredScene
     from samplekit_spectrum.integrands.integrand import Integrand
 
 

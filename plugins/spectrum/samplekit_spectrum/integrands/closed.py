@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
-from samplekit.parsing import parse_choice
+from samplekit._parsing import parse_choice
 from samplekit_spectrum.integrands.disk import disk
 from samplekit_spectrum.integrands.integrand import Integrand
 from samplekit_spectrum.integrands.products import bilinear, checker, gaussian
@@ -13,8 +13,7 @@ from samplekit_spectrum.integrands.step import step
 from samplekit_spectrum.integrands.zoneplate import zoneplate
 
 if TYPE_CHECKING:
-    from samplekit.integration.configured import ConfiguredScene
-    from samplekit.specs import OptionValue
+    from samplekit import ConfiguredScene, OptionValue
 
 Form = Callable[[str, "Mapping[str, OptionValue]"], Integrand | None]
 

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from samplekit.errors import SamplekitError
+from samplekit import SamplekitError
 from samplekit_spectrum.integrands.integrand import Integrand
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from samplekit.integration.configured import ConfiguredScene
+    from samplekit import ConfiguredScene
 
 PIXELS = 2048
 

@@ -23,7 +23,7 @@ def step(name: str, options: Mapping[str, Any]) -> Integrand:
     Gauss's theorem for m exp(-2 pi i m.x): f(m) = i / (2 pi |m|^2) times the sum over the polygon's edges of
     (m.n) L sinc(m.t L) exp(-2 pi i m.c), with outward normal n, direction t, length L and middle c.
     """
-    from samplekit.builtin.scenes.step import Step
+    from samplekit._builtin.scenes.step import Step
 
     # The scene's own line, rounded as it rounds it.
     scene = Step(float(options["angle"]), float(options["offset"]))

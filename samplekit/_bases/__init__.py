@@ -1,0 +1,1 @@
+"""Base classes that samplers, scenes and randomizers derive from, and the realisations that they are handed."""

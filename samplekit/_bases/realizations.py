@@ -1,0 +1,114 @@
+"""Realisations: which point sets are asked for. A realisation is a pixel."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from samplekit._errors import UsageError
+from samplekit._parsing import LARGEST_SEED
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+LARGEST_COORDINATE = 2**32 - 1
+
+
+def _mix64(x: NDArray[np.uint64]) -> NDArray[np.uint64]:
+    """The bijection of :func:`samplekit.kernels._hashing.mix64` on whole arrays, without importing numba."""
+    x = (x ^ (x >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
+    x = (x ^ (x >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
+    return x ^ (x >> np.uint64(31))
+
+
+@dataclass(frozen=True, eq=False)
+class Realizations:
+    """A batch of R realisations: one point set each, independent of the rest.
+
+    Attributes
+    ----------
+    keys
+        uint64[R]. Within one seed no two pixels have the same key: the key is a bijection of (x, y).
+    x, y
+        int64[R]. Pixel coordinates; a plain list of realisations is the row y = 0.
+    seed
+        The seed, for samplers that share something between all pixels.
+    blocks
+        Sizes of the blocks that the dimensions form by purpose, such as (2, 2, 1) for pixel, lens and time; empty when
+        nothing is known of them.
+
+    Examples
+    --------
+    >>> from samplekit import Realizations
+    >>> len(Realizations.of_trials(0, 5, seed=7).keys)
+    5
+    """
+
+    keys: NDArray[np.uint64]
+    x: NDArray[np.int64]
+    y: NDArray[np.int64]
+    seed: int
+    blocks: tuple[int, ...] = ()
+
+    @classmethod
+    def of_pixels(
+        cls, x: NDArray[np.int64], y: NDArray[np.int64], seed: int, blocks: tuple[int, ...] = ()
+    ) -> Realizations:
+        """Realisations of the pixels (x, y), each coordinate from 0 to 2^32 - 1.
+
+        Raises
+        ------
+        UsageError
+            The seed is not from 0 to 2^64 - 1, or a coordinate is out of range.
+        """
+        check_seed(seed)
+        x = np.ascontiguousarray(x, np.int64)
+        y = np.ascontiguousarray(y, np.int64)
+        for coordinate in (x, y):
+            if coordinate.size and (coordinate.min() < 0 or coordinate.max() > LARGEST_COORDINATE):
+                raise UsageError(f"pixel coordinates must be from 0 to {LARGEST_COORDINATE}")
+        code = x.astype(np.uint64) | (y.astype(np.uint64) << np.uint64(32))
+        return cls(_mix64(code ^ seed_word(seed)), x, y, seed, blocks)
+
+    @classmethod
+    def of_trials(cls, start: int, stop: int, seed: int, blocks: tuple[int, ...] = ()) -> Realizations:
+        """Realisations start to stop: the pixels (start, 0) to (stop - 1, 0)."""
+        x = np.arange(start, stop, dtype=np.int64)
+        return cls.of_pixels(x, np.zeros_like(x), seed, blocks)
+
+    def random_words(self, dims: int) -> NDArray[np.uint64]:
+        """64 random bits for each realisation and dimension, uint64[R, dims]: for shifts and the like, in NumPy.
+
+        A word depends on key and dimension alone.
+        """
+        dimension = np.arange(1, dims + 1, dtype=np.uint64) * np.uint64(0xD1342543DE82EF95)
+        return _mix64(_mix64(self.keys[:, None] ^ dimension) + np.uint64(0x9E3779B97F4A7C15))
+
+    def __len__(self) -> int:
+        return int(self.keys.size)
+
+    def __getitem__(self, rows: slice) -> Realizations:
+        keys = np.ascontiguousarray(self.keys[rows])
+        x, y = np.ascontiguousarray(self.x[rows]), np.ascontiguousarray(self.y[rows])
+        return Realizations(keys, x, y, self.seed, self.blocks)
+
+
+def seed_word(seed: int) -> np.uint64:
+    """The word that the seed contributes to every key: key = mix64((x | y << 32) ^ seed_word)."""
+    word: np.uint64 = _mix64(np.array([seed], np.uint64) ^ np.uint64(0x9E3779B97F4A7C15))[0]
+    return word
+
+
+def check_seed(seed: object) -> int:
+    """The seed as an int.
+
+    Raises
+    ------
+    UsageError
+        It is not an integer from 0 to 2^64 - 1.
+    """
+    if isinstance(seed, bool) or not isinstance(seed, (int, np.integer)) or not 0 <= int(seed) <= LARGEST_SEED:
+        raise UsageError(f"seed {seed}: expected an integer from 0 to {LARGEST_SEED}")
+    return int(seed)

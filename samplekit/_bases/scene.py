@@ -1,0 +1,108 @@
+"""The scene: an integrand over the unit square (and lens, time, direction) with its exact mean over a pixel."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from numpy.typing import NDArray
+
+
+class Scene:
+    """Base of all scenes. Options arrive by keyword, parsed; dashes in their names are underscores here.
+
+    A scene gives either ``value`` (NumPy, the simple door) or ``sums`` (a kernel, the fast door). All else has
+    defaults: without ``exact`` the reference is integrated numerically, and says how far it is to be trusted.
+
+    Attributes
+    ----------
+    reference_error
+        Bound of the error of ``exact`` in any pixel, beyond rounding; 0: exact.
+    finite_variance
+        Whether the square of the integrand has a finite integral; where not, a standard error means nothing.
+
+    Examples
+    --------
+    >>> import samplekit
+    >>> class Ramp(samplekit.Scene):
+    ...     def value(self, points):
+    ...         x, y = points
+    ...         return x
+    """
+
+    reference_error: float = 0.0
+    finite_variance: bool = True
+
+    def notes(self) -> list[str]:
+        """What a user of this scene should know with these options; shown by ``--explain``, kept with the image."""
+        return []
+
+    def dimensions(self) -> Mapping[str, int]:
+        """Dimensions needed with these options, by purpose and in their order: ``{"pixel": 2}``."""
+        return {"pixel": 2}
+
+    def value(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The integrand float64[M] at ``points`` float64[D, M]: rows x, y in the scene, the others in [0, 1)."""
+        raise NotImplementedError(f"{type(self).__name__} defines neither value nor sums")
+
+    def sums(self, tile: NDArray[np.float64], boxes: NDArray[np.float64], out: NDArray[np.float64]) -> None:
+        """Sum the integrand over the samples of each pixel.
+
+        Parameters
+        ----------
+        tile
+            float64[P, D, n], n <= 1024, C order: for each pixel samples in [0, 1)^D, dimension by dimension;
+            dimensions 0 and 1 are the place within the pixel.
+        boxes
+            float64[4, P], C order: left edge, width, top edge, height of each pixel. Sample u is at left + u * width.
+        out
+            float64[P], receives the sums.
+        """
+        from samplekit.kernels._row_sums import row_sums
+
+        pixels, dims, count = tile.shape
+        points = np.empty((dims, pixels * count))
+        points[0] = (boxes[0][:, None] + tile[:, 0] * boxes[1][:, None]).ravel()
+        points[1] = (boxes[2][:, None] + tile[:, 1] * boxes[3][:, None]).ravel()
+        for dimension in range(2, dims):
+            points[dimension] = tile[:, dimension].ravel()
+        values = np.ascontiguousarray(self.value(points), np.float64)
+        if values.shape != (pixels * count,):
+            raise ValueError(f"value gave shape {values.shape} for {pixels * count} points")
+        row_sums(values.reshape(pixels, count), out)
+
+    def parts(self, tile: NDArray[np.float64], boxes: NDArray[np.float64]) -> Sequence[NDArray[np.float64]]:
+        """Numbers float64[P, n] whose exact sum is the value at each sample before it was rounded.
+
+        What a run in extended precision adds up; by default the rounded value itself. ``tile`` and ``boxes`` as in
+        :meth:`sums`.
+        """
+        from samplekit._integrate.samples import sample_values
+
+        return (sample_values(self, tile, boxes),)
+
+    def exact(self, x_edges: NDArray[np.float64], y_edges: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The exact mean over each pixel: float64[h, w] for edges float64[w + 1] and float64[h + 1], as stored.
+
+        By default adaptive quadrature; see :mod:`samplekit._integrate.numerical`.
+        """
+        from samplekit._integrate.numerical import numerical_means
+
+        return numerical_means(self, x_edges, y_edges).image
+
+    def exact_at(self, x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The exact mean over all other dimensions at the points x float64[w] by y float64[h]: float64[h, w].
+
+        By default Gauss rules; see :mod:`samplekit._integrate.numerical`.
+        """
+        from samplekit._integrate.numerical import numerical_means_at
+
+        return numerical_means_at(self, x, y).image
+
+    def constant(self, x_edges: NDArray[np.float64], y_edges: NDArray[np.float64]) -> NDArray[np.float64]:
+        """The value of each pixel in which the integrand is provably constant, NaN elsewhere: float64[h, w]."""
+        return np.full((y_edges.size - 1, x_edges.size - 1), np.nan)

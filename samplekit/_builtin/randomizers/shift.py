@@ -1,0 +1,42 @@
+"""Cranley-Patterson rotation: one random toroidal shift of the whole set, the course's homogenisation.
+
+Cranley and Patterson 1976, "Randomization of number theoretic methods for multiple integration". Sums are rounded, so
+distances are kept to 2^-52.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from samplekit import Randomizer
+from samplekit.kernels import dimension_key, kernel, mix64, unit
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from samplekit import Realizations
+
+_SHIFT = np.uint64(0x1F83D9ABFB41BD6B)
+
+
+@kernel("void(float64[:,:,::1], uint64[::1])")
+def _apply(points: NDArray[np.float64], keys: NDArray[np.uint64]) -> None:
+    realizations, dims, count = points.shape
+    for r in range(realizations):
+        for d in range(dims):
+            shift = unit(mix64(dimension_key(keys[r], d) ^ _SHIFT))
+            row = points[r, d]
+            for i in range(count):
+                # Both terms are multiples of 2^-53 or finer and below 1: the sum is below 2 even when it is rounded.
+                moved = row[i] + shift
+                row[i] = moved - 1.0 if moved >= 1.0 else moved
+
+
+class Shift(Randomizer):
+    """Adds a uniform random vector to every point, modulo 1."""
+
+    def apply(self, points: NDArray[np.float64], realizations: Realizations, bases: tuple[int, ...]) -> None:
+        """Shift ``points`` in place; see :meth:`Randomizer.apply`."""
+        _apply(points, realizations.keys)

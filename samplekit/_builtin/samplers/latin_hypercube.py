@@ -1,0 +1,67 @@
+"""Latin hypercube sampling: in every dimension one point in each of N equal intervals (McKay, Beckman, Conover 1979).
+
+In two dimensions it is N-rooks sampling (Shirley 1991, "Discrepancy as a quality measure for sample distributions").
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from samplekit import Sampler
+from samplekit.kernels import (
+    SHUFFLED,
+    dimension_key,
+    hash_index,
+    kernel,
+    mix64,
+    offset_bits,
+    permutation_bits,
+    permute_range,
+    place_in_cell,
+    second_key,
+    shuffle,
+)
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from samplekit import Realizations
+
+_U64 = np.uint64
+_SHUFFLE = _U64(0x6A09E667F3BCC908)
+
+
+@kernel("void(float64[:,:,::1], uint64[::1], int64, int64)")
+def _fill(out: NDArray[np.float64], keys: NDArray[np.uint64], count: int, start: int) -> None:
+    realizations, dims, points = out.shape
+    place = np.empty(max(points, min(count, SHUFFLED)), np.int64)
+    bits = offset_bits(count)
+    shift = _U64(64 - bits)
+    step = 2.0 ** (-bits)
+    width = 1.0 / count
+    index_bits = permutation_bits(count)
+    for r in range(realizations):
+        for d in range(dims):
+            key = dimension_key(keys[r], d)
+            second = second_key(key)
+            order = mix64(key ^ _SHUFFLE)
+            first = start
+            if count <= SHUFFLED:
+                shuffle(place, count, order)
+            else:
+                first = 0
+                permute_range(place[:points], start, count, index_bits, order)
+            row = out[r, d]
+            for i in range(points):
+                cell = np.float64(place[first + i])
+                row[i] = place_in_cell(cell, hash_index(key, second, _U64(start + i)), shift, step, width)
+
+
+class LatinHypercube(Sampler):
+    """A random permutation of N jittered intervals in each dimension."""
+
+    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+        """Write points of the sets; see :meth:`Sampler.fill`."""
+        _fill(out, realizations.keys, count, start)

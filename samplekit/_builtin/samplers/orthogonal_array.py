@@ -1,0 +1,212 @@
+"""Orthogonal array sampling: every t dimensions project onto one point in each cell of their s^t grid.
+
+Jarosz, Enayet, Kensler, Kilpatrick, Christensen 2019, "Orthogonal array sampling for Monte Carlo rendering", with the
+arrays of Bose 1938, "On the application of the properties of Galois fields to the problem of construction of
+hyper-Graeco-Latin squares" (strength t = 2, N = s^2), and Bush 1952, "Orthogonal arrays of index unity" (t = 3,
+N = s^3), s a prime. Both are one construction: the digits of the index in base s are the coefficients of a polynomial
+of degree below t, and column j is its value at j modulo s; column s is the leading coefficient. Any t of the s + 1
+columns determine the polynomial, so among the s^t points any t digits occur together once.
+
+A column's digit, after a random permutation of the digits, is the stratum of a dimension; the offset within it follows
+one of the paper's three styles. ``jittered``: anywhere. ``multi-jittered``: the s^(t-1) points of a stratum, told apart
+by t - 1 other columns, go to its sub-strata in an order of its own, which makes every dimension Latin. ``correlated``:
+in an order that all strata share (Kensler 2013), which makes the pairs (or triples) of dimensions 0 and 1, 2 and 3, ...
+correlated multi-jittered. Points come in a random order.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import count as count_from
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from samplekit import LatinStrata, OrthogonalArray, Sampler, UsageError, allows
+from samplekit.kernels import (
+    SHUFFLED,
+    dimension_key,
+    hash_index,
+    helper,
+    kernel,
+    mix64,
+    offset_bits,
+    permutation_bits,
+    permute_in_lines,
+    permute_range,
+    place_in_cell,
+    second_key,
+    shuffle,
+)
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from samplekit import Realizations, SamplerSpec
+
+_U64 = np.uint64
+_ORDER = _U64(0x1F83D9ABFB41BD6B)
+_STRATA = _U64(0x5BE0CD19137E2179)
+_LINES = _U64(0x3C6EF372FE94F82B)
+JITTERED, MULTI_JITTERED, CORRELATED = range(3)
+STYLES = ("jittered", "multi-jittered", "correlated")
+_BLOCK = 1024
+"""Points that are made at a time, so that what is known of them stays in the cache."""
+_TABULATED = 1 << 16
+"""Largest number of places within strata that are a table: of one stratum, where all share it, or of all together."""
+_COUNTS = {2: "prime-squares", 3: "prime-cubes"}
+
+
+@helper
+def _column(out: NDArray[np.float64], coefficients: NDArray[np.float64], column: int, s: float) -> None:
+    """Write the digits of a column: the polynomial at ``column`` modulo s, or its leading coefficient."""
+    degree = coefficients.shape[0] - 1
+    if column == s:
+        for i in range(out.size):
+            out[i] = coefficients[degree, i]
+        return
+    for i in range(out.size):
+        out[i] = coefficients[0, i]
+    power = 1.0
+    for k in range(1, degree + 1):
+        power = (power * column) % s
+        for i in range(out.size):
+            out[i] += power * coefficients[k, i]
+    for i in range(out.size):
+        # Below 2 s^2 + s < 2^34, so exact; the half keeps clear of the rounding.
+        out[i] -= s * np.floor((out[i] + 0.5) * (1.0 / s))
+
+
+@helper
+def _write_coefficients(
+    coefficients: NDArray[np.float64], order: NDArray[np.int64], base: float, count: int, start: int, key: np.uint64
+) -> None:
+    """The digits in base s of the places of start, start + 1, ... in a random order of all points."""
+    strength, whole = coefficients.shape
+    per_base = 1.0 / base
+    if count <= SHUFFLED:
+        shuffle(order, count, key)
+    for begin in range(0, whole, _BLOCK):
+        n = min(_BLOCK, whole - begin)
+        if count > SHUFFLED:
+            permute_range(order[:n], start + begin, count, permutation_bits(count), key)
+        first = start + begin if count <= SHUFFLED else 0
+        for i in range(n):
+            coefficients[0, begin + i] = np.float64(order[first + i])
+        for k in range(strength):
+            row = coefficients[k, begin : begin + n]
+            above = coefficients[min(k + 1, strength - 1), begin : begin + n]
+            for i in range(n):
+                quotient = np.floor((row[i] + 0.5) * per_base)
+                row[i] -= base * quotient
+                if k + 1 < strength:
+                    above[i] = quotient
+
+
+@kernel("void(float64[:,:,::1], uint64[::1], int64, int64, int64, int64, int64)")
+def _fill(
+    out: NDArray[np.float64], keys: NDArray[np.uint64], s: int, strength: int, style: int, count: int, start: int
+) -> None:
+    realizations, dims, whole = out.shape
+    points = min(whole, _BLOCK)
+    sublines = count // s
+    order = np.empty(max(points, min(count, SHUFFLED)), np.int64)
+    coefficients = np.empty((strength, whole), np.float64)
+    digits = np.empty((2, points), np.float64)
+    stratum = np.empty(points, np.int64)
+    place = np.empty(points, np.int64)
+    strata = np.empty(s, np.int64)
+    line_keys = np.empty(s, np.uint64)
+    places = sublines if style == CORRELATED else count
+    tabulated = style != JITTERED and places <= _TABULATED
+    per_line = 0 if style == CORRELATED else sublines
+    table = np.empty(places if tabulated else 0, np.int64)
+    subline_bits = permutation_bits(sublines)
+    cells = s if style == JITTERED else count
+    bits = offset_bits(cells)
+    shift, step, width = _U64(64 - bits), 2.0 ** (-bits), 1.0 / cells
+    base = np.float64(s)
+    for r in range(realizations):
+        _write_coefficients(coefficients, order, base, count, start, mix64(keys[r] ^ _ORDER))
+        for d in range(dims):
+            key = dimension_key(keys[r], d)
+            second = second_key(key)
+            shuffle(strata, s, mix64(key ^ _STRATA))
+            line_key = mix64(key ^ _LINES)
+            for line in range(1 if tabulated and style == CORRELATED else s):
+                line_keys[line] = line_key if style == CORRELATED else mix64(line_key + _U64(line))
+                if tabulated:
+                    shuffle(table[line * sublines :], sublines, line_keys[line])
+            # The other columns of the dimension's group: the last group moves back where it would pass column s.
+            group = min(d - d % strength, s + 1 - strength)
+            for begin in range(0, whole, points):
+                n = min(points, whole - begin)
+                block = coefficients[:, begin : begin + n]
+                row = out[r, d, begin : begin + n]
+                _column(digits[0, :n], block, d, base)
+                for i in range(n):
+                    stratum[i] = np.int64(digits[0, i])
+                if style == JITTERED:
+                    for i in range(n):
+                        cell = np.float64(strata[stratum[i]])
+                        random = hash_index(key, second, _U64(start + begin + i))
+                        row[i] = place_in_cell(cell, random, shift, step, width)
+                    continue
+                place[:n] = 0
+                for column in range(group, group + strength):
+                    if column != d:
+                        _column(digits[1, :n], block, column, base)
+                        for i in range(n):
+                            place[i] = place[i] * s + np.int64(digits[1, i])
+                if tabulated:
+                    for i in range(n):
+                        place[i] = table[stratum[i] * per_line + place[i]]
+                else:
+                    permute_in_lines(place[:n], stratum[:n], sublines, subline_bits, line_keys)
+                for i in range(n):
+                    cell = np.float64(strata[stratum[i]] * sublines + place[i])
+                    random = hash_index(key, second, _U64(start + begin + i))
+                    row[i] = place_in_cell(cell, random, shift, step, width)
+
+
+def _prime_root(count: int, strength: int) -> int:
+    return int(float(count) ** (1.0 / strength) + 0.5)
+
+
+class OrthogonalArraySampler(Sampler):
+    """Points on the arrays of Bose and of Bush."""
+
+    def __init__(self, strength: int = 2, offset: str = "correlated") -> None:
+        self.strength = strength
+        self.style = STYLES.index(offset)
+
+    def refine(self, spec: SamplerSpec) -> SamplerSpec:
+        """The counts and the promises of this strength and offset."""
+        promises = (OrthogonalArray(self.strength), *(() if self.style == JITTERED else (LatinStrata(),)))
+        return replace(spec, counts=_COUNTS[self.strength], promises=promises)
+
+    def check(self, count: int, dims: int, blocks: tuple[int, ...]) -> None:
+        """Raise unless the array has as many columns.
+
+        Raises
+        ------
+        UsageError
+            More than s + 1 dimensions: names the smallest array that has them.
+        """
+        s = _prime_root(count, self.strength)
+        if dims > s + 1:
+            enough = next(n**self.strength for n in count_from(dims - 1) if self._makes(n**self.strength))
+            raise UsageError(
+                f"orthogonal-array of {count} = {s}^{self.strength} points has at most {s + 1} dimensions, not {dims}:"
+                f" for {dims} dimensions it takes at least {enough} points"
+            )
+
+    def _makes(self, count: int) -> bool:
+        return allows(_COUNTS[self.strength], count, 1)
+
+    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+        """Write points of the sets; see :meth:`Sampler.fill`."""
+        s = _prime_root(count, self.strength)
+        if not self._makes(count) or out.shape[1] > s + 1:
+            raise UsageError(f"there is no orthogonal array of {count} points in {out.shape[1]} dimensions")
+        _fill(out, realizations.keys, s, self.strength, self.style, count, start)

@@ -1,0 +1,110 @@
+"""Anybody's point sets, from a file: to be analysed and rendered with like those of any sampler.
+
+The file has R sets of N points in D dimensions (see `samplekit.files` for its formats), and N and D are what
+can be asked for. Pixel (x, y) takes set (x + a y + seed) modulo R with a the number nearest to R divided by the golden
+ratio that has no factor in common with R: in a row, as in trials, the sets come one after the other from the set that
+is the seed, and pixels with the same set lie on a lattice, far from each other.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import replace
+from itertools import count as count_from
+from math import gcd
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from samplekit import Sampler, UsageError
+from samplekit._parsing import parse_choice
+from samplekit.files import read_points
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from samplekit import Realizations, SamplerSpec
+
+_GOLDEN = (1 + 5**0.5) / 2
+
+
+def row_step(sets: int) -> int:
+    """How many sets further a row begins than the row above it."""
+    nearest = round(sets / _GOLDEN)
+    return next(a for d in count_from() for a in (nearest - d, nearest + d) if a >= 1 and gcd(a, sets) == 1)
+
+
+class PointFile(Sampler):
+    """The points of a file, in the order that they have there."""
+
+    def __init__(self, path: str) -> None:
+        _check_text(path)
+        self.path = path
+        points = read_points(Path(path))
+        self.sets, self.count, self.dims = points.shape
+        self.points = np.ascontiguousarray(points.transpose(0, 2, 1))
+
+    def refine(self, spec: SamplerSpec) -> SamplerSpec:
+        """As many points and dimensions as the file has, and as random as its sets."""
+        several = self.sets > 1
+        return replace(
+            spec,
+            dimensions=(self.dims, self.dims),
+            counts=f"exactly-{self.count}",
+            randomized=several,
+            period=self.sets if several else None,
+        )
+
+    def check(self, count: int, dims: int, blocks: tuple[int, ...]) -> None:
+        """Raise unless the file has sets of ``count`` points in ``dims`` dimensions.
+
+        Raises
+        ------
+        UsageError
+            It has others: names them.
+        """
+        if (count, dims) != (self.count, self.dims):
+            raise UsageError(f"{self.path} has {self._what()}, not {count} points in {dims}")
+
+    def notes(self, count: int, dims: int) -> list[str]:
+        """What is in the file, and which set a pixel takes."""
+        digest = hashlib.sha256(self.points.tobytes()).hexdigest()[:16]
+        note = f"points from a file: {self._what()}, sha256 of the numbers {digest}..."
+        if self.sets == 1:
+            return [note, "every pixel has the same points"]
+        return [note, f"pixel (x, y) takes set (x + {row_step(self.sets)} y + seed) modulo {self.sets}"]
+
+    def _what(self) -> str:
+        sets = "one set" if self.sets == 1 else f"{self.sets} sets"
+        return f"{sets} of {self.count} points in {self.dims} dimensions"
+
+    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+        """Write points of the sets; see :meth:`Sampler.fill`."""
+        _, dims, points = out.shape
+        self.check(count, dims, ())
+        # Below 2^64: coordinates and the step are below 2^32.
+        row = realizations.y % self.sets * row_step(self.sets)
+        chosen = (realizations.x + row + realizations.seed % self.sets) % self.sets
+        np.take(self.points[:, :, start : start + points], chosen, axis=0, out=out, mode="clip")
+
+
+def _check_text(path: str) -> None:
+    """Refuse a path that the command line could not say: what is shown and stored must choose the same file again.
+
+    Raises
+    ------
+    UsageError
+        It holds a comma, which ends an option, a plus sign before a letter, which begins a randomizer, or begins or
+        ends with a space.
+    """
+    try:
+        choice = parse_choice(f"file:path={path}", "sampler")
+        same = choice.options == {"path": path} and choice.randomizer is None
+    except UsageError:
+        same = False
+    if not same:
+        raise UsageError(
+            f"file: path {path!r}: in NAME:option=value,...+RANDOMIZER a comma ends a value and a plus sign before a"
+            " letter begins a randomizer: rename the file, or go to its folder"
+        )

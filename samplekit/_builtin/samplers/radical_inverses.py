@@ -1,0 +1,135 @@
+"""Van der Corput, Halton and Hammersley points: radical inverses of the index in prime bases.
+
+Halton 1960, "On the efficiency of certain quasi-random sequences of points in evaluating multi-dimensional
+integrals"; Hammersley 1960, "Monte Carlo methods for solving multivariable problems". Indices start at 0, so that no
+coordinate is 1.
+
+While the index is below the bases b and b', points are (i / b, i / b'): in the dimensions of 7907 and 7919 the first
+256 lie on a line. Scrambled digits end that: ``digits`` permutes them at random, the same way for all points at
+each place (Owen 2017), ``owen`` in a way of its own for all digits before (Owen 1995), which also makes the variance
+fall faster.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from samplekit import Net, Sampler
+from samplekit.kernels import PERMUTED, PLAIN, SHIFTED, fill_mirrored, fill_nested, primes
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from samplekit import Fill, Realizations, SamplerSpec
+
+_SCRAMBLE = np.uint64(0x9159015A3070DD17)
+LARGEST_SCRAMBLED_INDEX = 2**32 - 1
+
+
+class RadicalInverses(Sampler):
+    """Base of the samplers that give the same points in every realisation unless a randomizer changes them."""
+
+    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+        """Write points of the sets; see :meth:`Sampler.fill`."""
+        fill_mirrored(out[:1], np.zeros(1, np.uint64), self._bases(out), start, PLAIN)
+        out[1:] = out[0]
+
+    def fused(self, randomizer: str) -> Fill | None:
+        """Shifted or scrambled points without plain ones before; nested scrambling in primes alone."""
+        return {"xor": self._fill_shifted, "owen": self._fill_scrambled}.get(randomizer)
+
+    def _fill_shifted(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+        fill_mirrored(out, realizations.keys, self._bases(out), start, SHIFTED)
+
+    def _fill_scrambled(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+        fill_nested(out, realizations.keys, self._bases(out), start)
+
+    def _bases(self, out: NDArray[np.float64]) -> NDArray[np.int64]:
+        return np.array(self.bases(out.shape[1]), np.int64)
+
+
+class Halton(RadicalInverses):
+    """Dimension d is the radical inverse of the index in the (d + 1)-th prime.
+
+    Parameters
+    ----------
+    scramble
+        ``none``; ``digits``: a random permutation at each place; ``owen``: nested scrambling.
+    """
+
+    def __init__(self, scramble: str = "none") -> None:
+        self._scramble = scramble
+
+    def refine(self, spec: SamplerSpec) -> SamplerSpec:
+        """Scrambled points are random, and unbiased."""
+        if self._scramble == "none":
+            return spec
+        return replace(spec, randomized=True, unbiased=True, largest_index=LARGEST_SCRAMBLED_INDEX)
+
+    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+        """Write points of the sets; see :meth:`Sampler.fill`."""
+        if self._scramble == "none":
+            super().fill(out, realizations, count, start)
+            return
+        # Keys of its own: the randomizer ``owen`` scrambles these points once more, and the hashes must differ.
+        keys = realizations.keys ^ _SCRAMBLE
+        if self._scramble == "owen":
+            fill_nested(out, keys, self._bases(out), start)
+        else:
+            fill_mirrored(out, keys, self._bases(out), start, PERMUTED)
+
+    def fused(self, randomizer: str) -> Fill | None:
+        """Points that are scrambled already have no fused form."""
+        return super().fused(randomizer) if self._scramble == "none" else None
+
+    def bases(self, dims: int) -> tuple[int, ...]:
+        """The first ``dims`` primes."""
+        return primes(dims)
+
+
+class VanDerCorput(RadicalInverses):
+    """The radical inverse of the index in one base."""
+
+    def __init__(self, base: int = 2) -> None:
+        self.base = base
+
+    def refine(self, spec: SamplerSpec) -> SamplerSpec:
+        """Blocks of powers of the base are nets in it."""
+        return replace(spec, promises=(Net(dims=(0,), base=self.base),))
+
+    def fused(self, randomizer: str) -> Fill | None:
+        """As that of all radical inverses; composite bases are left to the randomizer."""
+        composite = any(self.base % divisor == 0 for divisor in range(2, math.isqrt(self.base) + 1))
+        return None if composite and randomizer == "owen" else super().fused(randomizer)
+
+    def bases(self, dims: int) -> tuple[int, ...]:
+        """The base, for the one dimension."""
+        return (self.base,) * dims
+
+
+class Hammersley(RadicalInverses):
+    """Dimension 0 is index / count, dimension d the radical inverse in the d-th prime.
+
+    b^m points are a (0, m, 2)-net in base b in dimension 0 and that of the prime b. That is declared of base 2 alone,
+    for a scrambling of dimension 0 can be in one base only.
+    """
+
+    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+        """Write points of the sets; see :meth:`Sampler.fill`."""
+        out[0, 0] = np.arange(start, start + out.shape[2]) / count
+        bases = self._bases(out)[1:]
+        if bases.size:
+            fill_mirrored(out[:1, 1:], np.zeros(1, np.uint64), bases, start, PLAIN)
+        out[1:] = out[0]
+
+    def fused(self, randomizer: str) -> Fill | None:
+        """None: index / count depends on the count."""
+        return None
+
+    def bases(self, dims: int) -> tuple[int, ...]:
+        """Base 2 for index / count, then the primes."""
+        return (2, *primes(dims - 1))

@@ -1,0 +1,150 @@
+"""Z-Sobol: neighbouring pixels share one Owen-scrambled Sobol sequence, so that their errors form blue noise.
+
+Ahmed and Wonka 2020, "Screen-space blue-noise diffusion of Monte Carlo sampling error via hierarchical ordering of
+pixels", ACM TOG 39(6). With N = 2^m samples in each pixel, the pixel at place z of a hierarchical order takes the
+points z N, ..., z N + N - 1 of Sobol's (0, 2)-sequence. Each aligned square of 2^k x 2^k pixels takes an aligned block
+of the sequence, a net; the points of one pixel are an Owen-scrambled net as well, and its error is that of any such.
+Every pair of dimensions has an order of the pixels and a scrambling of its own, and from the second pair on the points
+of a pixel are shuffled.
+
+Two things differ from the paper:
+
+- Tiles of 64 x 64 pixels have a scrambling of their own. A sequence for the whole image does no better after a blur of
+  2 pixels, but with more than one sample its one scrambling suits the whole image or does not: the mean squared error
+  of a smooth image then varied by a factor of 50 from seed to seed. Indices so have at most 44 bits, and no tile
+  repeats another.
+- The first pair of dimensions, the place within the pixel, has one order of the pixels, chosen so that nearby pixels
+  complement each other along edges; ``orders=random`` takes a random order, as in the paper and as the other pairs
+  have. After a blur of 2 pixels that leaves 0.6 of the mean squared error of independent pixels on disks, where a
+  random order leaves 0.9, and 0.02 on a bell, where it leaves 0.1.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from samplekit import Sampler, seed_word
+from samplekit._builtin.samplers.pixel_order import TILE_LEVELS, matched_place, random_place
+from samplekit.kernels import (
+    SHUFFLED,
+    TWO_M32,
+    dimension_key,
+    hash_index,
+    helper,
+    kernel,
+    mix64,
+    owen_addend,
+    owen_factor,
+    owen_key,
+    owen_tail,
+    reverse_bits32,
+    scatter,
+    scramble_reversed,
+    second_key,
+    shuffle,
+    tail_value,
+)
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from samplekit import Realizations
+
+_U32 = np.uint32
+_U64 = np.uint64
+_TILE = _U64(0x47B5481DBEFA4FA4)
+_ORDER = _U64(0x8EB44A8768581511)
+_SHUFFLE = _U64(0xDB0C2E0D64F98FA7)
+
+
+@helper
+def _pascal(v: np.uint32) -> np.uint32:
+    """Pascal's matrix modulo 2 times 32 digits, digit 1 in bit 0: one factor for each bit of a digit's position.
+
+    C(c, r) is odd where the bits of r are among those of c (Lucas 1878), so the matrix is a Kronecker product.
+    """
+    v = _U32(v ^ ((v & _U32(0xAAAAAAAA)) >> _U32(1)))
+    v = _U32(v ^ ((v & _U32(0xCCCCCCCC)) >> _U32(2)))
+    v = _U32(v ^ ((v & _U32(0xF0F0F0F0)) >> _U32(4)))
+    v = _U32(v ^ ((v & _U32(0xFF00FF00)) >> _U32(8)))
+    return _U32(v ^ (v >> _U32(16)))
+
+
+@helper
+def _scramble(row: NDArray[np.float64], digits: NDArray[np.uint32], beyond: np.uint32, key: np.uint64) -> None:
+    """Owen-scramble coordinates; ``digits`` are the first 32, ``beyond`` those behind them, the first in bit 0."""
+    addend = owen_addend(key)
+    factor = owen_factor(key)
+    tail = tail_value(_U64(reverse_bits32(beyond) >> _U32(11)) ^ owen_tail(key))
+    for i in range(row.size):
+        row[i] = np.float64(scramble_reversed(_U32(digits[i]), addend, factor)) * TWO_M32 + tail
+
+
+@kernel("void(float64[:,:,::1], int64[::1], int64[::1], uint64, boolean, int64, int64)")
+def _fill(
+    out: NDArray[np.float64],
+    xs: NDArray[np.int64],
+    ys: NDArray[np.int64],
+    seed: np.uint64,
+    matched: bool,
+    bits: int,
+    start: int,
+) -> None:
+    realizations, dims, points = out.shape
+    within = (1 << TILE_LEVELS) - 1
+    count = 1 << bits
+    table = np.empty(min(count, SHUFFLED), np.int64)
+    order = np.empty(points, np.uint32)
+    digits = np.empty(points, np.uint32)
+    for r in range(realizations):
+        x, y = xs[r], ys[r]
+        tile = mix64((_U64(x >> TILE_LEVELS) | (_U64(y >> TILE_LEVELS) << _U64(32))) ^ seed)
+        for i in range(points):
+            order[i] = _U32(start + i)
+        for d in range(0, dims, 2):
+            pair = dimension_key(tile, d)
+            if d == 0 and matched:
+                place = matched_place(x & within, y & within)
+            else:
+                place = random_place(x & within, y & within, mix64(pair ^ _ORDER))
+            if d > 0:
+                # Padded pairs: a shuffle of the pixel's own, else its samples would meet in the same order in all.
+                key = hash_index(pair ^ _SHUFFLE, second_key(pair), _U64(place))
+                if count <= SHUFFLED:
+                    shuffle(table, count, key)
+                    for i in range(points):
+                        order[i] = _U32(table[start + i])
+                else:
+                    for i in range(points):
+                        order[i] = scatter(_U32(start + i), bits, key)
+            first = place << bits
+            lower, upper = _U32(first & 0xFFFFFFFF), _U32(first >> 32)
+            for i in range(points):
+                digits[i] = order[i] | lower
+            _scramble(out[r, d], digits, upper, owen_key(tile, d))
+            if d + 1 < dims:
+                # The digits from the 33rd on enter y's first 32 as if they stood 32 places lower.
+                carried = _pascal(upper)
+                for i in range(points):
+                    digits[i] = _pascal(_U32(digits[i])) ^ carried
+                _scramble(out[r, d + 1], digits, carried, owen_key(tile, d + 1))
+
+
+class ZSobol(Sampler):
+    """One sequence for a tile of pixels, handed out in a hierarchical order.
+
+    Parameters
+    ----------
+    orders
+        ``matched``: in the first pair of dimensions nearby pixels complement each other; ``random``: in none.
+    """
+
+    def __init__(self, orders: str = "matched") -> None:
+        self._matched = orders == "matched"
+
+    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+        """Write points of the sets; see :meth:`Sampler.fill`."""
+        seed = seed_word(realizations.seed) ^ _TILE
+        _fill(out, realizations.x, realizations.y, seed, self._matched, count.bit_length() - 1, start)

@@ -1,0 +1,129 @@
+"""Which pixels of the depth-of-field scene show one value, from every place in them and every point of the lens.
+
+Interval arithmetic on the places p + c l: a pixel's box, grown by the circle of confusion, is inside a disk if its
+farthest corner is, outside if its nearest point is. The bounds have slack for the rounding of the samples' places.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from samplekit.kernels import helper, kernel
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+_BLOCK = 8
+_SLACK = 1e-12  # relative: places p + c l are rounded three times, each time by 2^-53
+
+
+@kernel("int64(float64, float64, float64, float64, float64, float64, float64, float64)")
+def _side(x0: float, x1: float, y0: float, y1: float, cx: float, cy: float, radius: float, reach: float) -> int:
+    """Return 1 if a box, moved by up to ``reach``, stays in a disk, -1 if it stays out, 0 if neither is proven.
+
+    2 if neither can be proven of any part of the box.
+    """
+    reach += _SLACK * (1.0 + reach)
+    near_x, near_y = max(x0 - cx, cx - x1, 0.0), max(y0 - cy, cy - y1, 0.0)
+    far_x, far_y = max(cx - x0, x1 - cx), max(cy - y0, y1 - cy)
+    near, far = near_x * near_x + near_y * near_y, far_x * far_x + far_y * far_y
+    inside, outside = max(0.0, radius - reach) * max(0.0, radius - reach), (radius + reach) * (radius + reach)
+    if far < inside:
+        return 1
+    if near > outside:
+        return -1
+    return 2 if near >= inside and far <= outside else 0
+
+
+@kernel(
+    "float64(float64, float64, float64, float64, float64[:,::1], float64[::1], float64[::1], float64[::1], int64[::1])"
+)
+def _shown(
+    x0: float,
+    x1: float,
+    y0: float,
+    y1: float,
+    front: Array,
+    ring: Array,
+    wall: Array,
+    confusion: Array,
+    sides: NDArray[np.int64],
+) -> float:
+    """Return what a box shows through all of the lens, NaN if that is not proven to be one value.
+
+    From front to back until a layer fills the box or shows in part. ``sides``: what is proven already of the disks and
+    of the ring's inner and outer circle; receives what is proven here.
+    """
+    disks = front.shape[0]
+    for k in range(disks):
+        if sides[k] == 0:
+            sides[k] = _side(x0, x1, y0, y1, front[k, 0], front[k, 1], front[k, 2], abs(confusion[0]))
+        if sides[k] == 1:
+            return float(front[k, 3])
+        if sides[k] != -1:
+            return math.nan
+    for edge in range(2):
+        if sides[disks + edge] == 0:
+            radius = ring[2 + edge]
+            sides[disks + edge] = _side(x0, x1, y0, y1, ring[0], ring[1], radius, abs(confusion[1]))
+    if sides[disks] == -1 and sides[disks + 1] == 1:
+        return float(ring[4])
+    if sides[disks] != 1 and sides[disks + 1] != -1:
+        return math.nan
+    reach = abs(confusion[2])
+    reach += _SLACK * (1.0 + reach)
+    column, last_column = np.floor((x0 - reach - wall[0]) / wall[1]), np.floor((x1 + reach - wall[0]) / wall[1])
+    row, last_row = np.floor((y0 - reach - wall[0]) / wall[1]), np.floor((y1 + reach - wall[0]) / wall[1])
+    if min(last_column, last_row) < 0.0 or max(column, row) >= wall[2]:
+        return float(wall[5])
+    if column != last_column or row != last_row:
+        return math.nan
+    return float(wall[3] if 0.5 * (column + row) == np.floor(0.5 * (column + row)) else wall[4])
+
+
+@helper
+def _about_line(low: float, high: float, reach: float, wall: Array) -> bool:
+    """Return whether one of the wall's lines is within ``reach`` of all that lies between ``low`` and ``high``."""
+    line = max(np.ceil((high - reach - wall[0]) / wall[1]), 0.0)
+    return bool(line <= wall[2] and wall[0] + line * wall[1] <= low + reach)
+
+
+@kernel("void(float64[::1], float64[::1], float64[:,::1], float64[::1], float64[::1], float64[::1], float64[:,::1])")
+def constant_pixels(x: Array, y: Array, front: Array, ring: Array, wall: Array, confusion: Array, out: Array) -> None:
+    """Write what each pixel shows through all of the lens, NaN where that is not proven to be one value.
+
+    Blocks of pixels come first: what is proven of a block holds in its pixels, and so does that nothing can be proven.
+    Pixels about the end of a line, where the wall's border is in view, are taken for blurred without more ado.
+    """
+    of_block, of_pixel = np.empty(front.shape[0] + 2, np.int64), np.empty(front.shape[0] + 2, np.int64)
+    for top in range(0, out.shape[0], _BLOCK):
+        bottom = min(top + _BLOCK, out.shape[0])
+        for left in range(0, out.shape[1], _BLOCK):
+            right = min(left + _BLOCK, out.shape[1])
+            x0, x1, y0, y1 = x[left], x[right], y[top], y[bottom]
+            of_block[:] = 0
+            blurred = False
+            for k in range(front.shape[0]):
+                of_block[k] = _side(x0, x1, y0, y1, front[k, 0], front[k, 1], front[k, 2], abs(confusion[0]))
+                blurred |= of_block[k] == 2
+            for edge in range(2):
+                side = _side(x0, x1, y0, y1, ring[0], ring[1], ring[2 + edge], abs(confusion[1]))
+                of_block[front.shape[0] + edge] = side
+                blurred |= side == 2 and of_block[: front.shape[0]].max() != 1
+            in_front, inner, outer = of_block[: front.shape[0]].max(), of_block[-2], of_block[-1]
+            if in_front == -1 and (inner == 1 or outer == -1):
+                blurred |= _about_line(x0, x1, abs(confusion[2]), wall) or _about_line(y0, y1, abs(confusion[2]), wall)
+            value = math.nan
+            if not blurred:
+                value = _shown(x0, x1, y0, y1, front, ring, wall, confusion, of_block)
+            for j in range(top, bottom):
+                for i in range(left, right):
+                    out[j, i] = value
+                    if math.isnan(value) and not blurred:
+                        of_pixel[:] = of_block
+                        out[j, i] = _shown(x[i], x[i + 1], y[j], y[j + 1], front, ring, wall, confusion, of_pixel)

@@ -1,0 +1,200 @@
+"""Exact means of Genz's integrands over a pixel and all further dimensions: products of means in one dimension.
+
+The corner peak is no product. Its mean, a sum of 2^d alternating terms in the textbook, loses every digit for small
+coefficients and many dimensions. With t^-(d+1) = 1/d! ∫ s^d exp(-s t) ds it is one integral of positive terms,
+
+    1/d! ∫ s^d exp(-s (1 + sum a_i l_i)) prod phi(s a_i h_i) ds,    phi(z) = (1 - exp(-z)) / z,
+
+over a box of lower corner l and sides h, which the trapezoidal rule in log s takes to all digits: the integrand is
+analytic in a strip and vanishes at both ends (Trefethen, Weideman 2014, "The exponentially convergent trapezoidal
+rule", SIAM Review 56).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from samplekit.kernels import (
+    cosine_of_turns,
+    dd_add,
+    dd_multiply,
+    dd_scale,
+    kernel,
+    lane_sum,
+    two_difference,
+    two_product,
+    two_sum,
+)
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+    Sides = tuple[Array, Array]
+    """Left and right ends of neighbouring intervals, float64[n] each; of points both are one array."""
+
+_STEP = 0.125
+_LOGS = np.arange(-72.0, 5.0, _STEP)
+"""Logarithms of s: below them s^d is negligible, above them exp(-s)."""
+_PI = 3.141592653589793
+_PI_LOW = 1.2246467991473532e-16
+
+_KERNELS = {"product-peak": 1, "gaussian": 3, "continuous": 4, "discontinuous": 5}
+
+
+def genz_means(family: str, a: Array, u: float, x: Sides, y: Sides) -> Array:
+    """Return the mean over every pixel x by y: float64[h, w].
+
+    Parameters
+    ----------
+    family, a, u
+        As in :class:`samplekit._builtin.scenes.oscillating.Oscillating`.
+    x, y
+        Left and right, top and bottom ends of the columns and rows.
+    """
+    if family == "oscillatory":
+        return _waves(a, u, x, y)
+    if family == "corner-peak":
+        return _corner_peaks(a, x, y)
+    code = _KERNELS[family]
+    columns = _along(code, a[0], u, x)
+    rows = _along(code, a[1], u, y) if a.size > 1 else np.ones(y[0].size)
+    rest = 1.0
+    whole = np.zeros(1), np.ones(1)
+    for coefficient in a[2:]:
+        rest *= float(_along(code, coefficient, 1.0 if family == "discontinuous" else u, whole)[0])
+    return np.multiply.outer(rows, columns) * rest
+
+
+def _along(code: int, a: float, u: float, sides: Sides) -> Array:
+    """Average the factor of one dimension over intervals: float64[n]."""
+    if code == _KERNELS["gaussian"]:
+        from samplekit._builtin.scenes.gaussian import bell_means
+
+        left, right = sides
+        if left is right:
+            values: Array = np.exp(-np.square(a * (left - u)))
+            return values
+        return bell_means(np.append(left, right[-1:]), u, a)
+    means = np.empty(sides[0].size)
+    _factor_means(code, a, u, *sides, means)
+    return means
+
+
+@kernel("float64(float64, float64, float64, float64)")
+def _decay(a: float, before: float, after: float, width: float) -> float:
+    """Average exp(-a t) over [near, near + width], near = after - before >= 0."""
+    near, near_low = two_difference(after, before)
+    exponent, low = two_product(a, near)
+    low += a * near_low
+    across = a * width
+    return math.exp(-exponent) * (1.0 - low) * (-math.expm1(-across) / across if across > 0.0 else 1.0)
+
+
+@kernel("void(int64, float64, float64, float64[::1], float64[::1], float64[::1])")
+def _factor_means(code: int, a: float, u: float, left: Array, right: Array, out: Array) -> None:
+    for i in range(out.size):
+        width = right[i] - left[i]
+        if code == 1:
+            first, last = a * (left[i] - u), a * (right[i] - u)
+            # The difference of two arcus tangents as one angle.
+            angle = math.atan2(a * width, 1.0 + first * last)
+            out[i] = angle / (a * width) if a * width > 0.0 else 1.0 / (1.0 + first * first)
+        elif code == 4:
+            if left[i] >= u:
+                out[i] = _decay(a, u, left[i], width)
+            elif right[i] <= u:
+                out[i] = _decay(a, right[i], u, width)
+            else:
+                before, after = u - left[i], right[i] - u
+                out[i] = (before * _decay(a, 0.0, 0.0, before) + after * _decay(a, 0.0, 0.0, after)) / width
+        elif left[i] > u or (left[i] == u and width > 0.0):
+            out[i] = 0.0
+        else:
+            end = min(right[i], u)
+            share = (end - left[i]) / width if end < right[i] else 1.0
+            out[i] = share * _decay(a, end, u, end - left[i])
+
+
+@kernel("void(float64, float64[::1], float64[::1], float64[::1], float64[::1])")
+def _wave_means(a: float, left: Array, right: Array, turns: Array, lengths: Array) -> None:
+    """Average exp(2 pi i a x) over intervals: its phase in turns, and its real factor sinc(a (right - left))."""
+    for i in range(left.size):
+        total, low = two_sum(left[i], right[i])
+        phase, phase_low = dd_scale(0.5 * total, 0.5 * low, a)
+        turns[i] = (phase - np.rint(phase)) + phase_low
+        width, width_low = two_difference(right[i], left[i])
+        half, half_low = dd_scale(0.5 * width, 0.5 * width_low, a)
+        # sin(2 pi t) = cos(2 pi (t - 1/4)): a whole number of turns is taken off first, exactly.
+        rest = (half - np.rint(half)) + (half_low - np.rint(half_low))
+        angle, angle_low = dd_multiply(half, half_low, 2.0 * _PI, 2.0 * _PI_LOW)
+        angle = dd_add(angle, angle_low, 0.0, 0.0)[0]
+        lengths[i] = math.sin(2.0 * _PI * rest) / angle if angle > 0.0 else 1.0
+
+
+def _waves(a: Array, u: float, x: Sides, y: Sides) -> Array:
+    """Average the oscillatory family: the real part of a product of waves."""
+    whole = np.zeros(1), np.ones(1)
+    phase, factor = 0.0, 1.0
+    phases, factors = [], []
+    for k, coefficient in enumerate(a):
+        sides = (x, y)[k] if k < 2 else whole
+        turns, lengths = np.empty(sides[0].size), np.empty(sides[0].size)
+        _wave_means(coefficient, *sides, turns, lengths)
+        if k < 2:
+            phases.append(turns)
+            factors.append(lengths)
+        else:
+            phase, factor = math.remainder(phase + turns[0], 1.0), factor * lengths[0]
+    if a.size == 1:
+        phases.append(np.zeros(y[0].size))
+        factors.append(np.ones(y[0].size))
+    out = np.empty((y[0].size, x[0].size))
+    _wave_image(phases[0], phases[1], math.remainder(phase + u, 1.0), out)
+    image: Array = out * np.multiply.outer(factors[1] * factor, factors[0])
+    return image
+
+
+@kernel("void(float64[::1], float64[::1], float64, float64[:,::1])")
+def _wave_image(columns: Array, rows: Array, phase: float, out: Array) -> None:
+    for j in range(out.shape[0]):
+        for i in range(out.shape[1]):
+            out[j, i] = cosine_of_turns(columns[i] + rows[j] + phase)
+
+
+def _corner_peaks(a: Array, x: Sides, y: Sides) -> Array:
+    s = np.exp(_LOGS)
+    d = a.size
+    weights = _STEP * np.exp((d + 1) * _LOGS - s - math.lgamma(d + 1))
+    for coefficient in a[2:]:
+        weights *= _falling(s * coefficient)
+    columns = _corner_factors(a[0], s, x)
+    rows = _corner_factors(a[1], s, y) if d > 1 else np.ones((y[0].size, s.size))
+    out = np.empty((y[0].size, x[0].size))
+    _sum_of_products(np.ascontiguousarray(rows * weights), np.ascontiguousarray(columns), out)
+    return out
+
+
+def _falling(z: Array) -> Array:
+    """Return phi(z) = (1 - exp(-z)) / z for z >= 0."""
+    return np.where(z > 0.0, -np.expm1(-z) / np.where(z > 0.0, z, 1.0), 1.0)
+
+
+def _corner_factors(a: float, s: Array, sides: Sides) -> Array:
+    """Return exp(-s a left) phi(s a (right - left)): float64[n, K]."""
+    left, right = sides
+    factors: Array = np.exp(-np.multiply.outer(a * left, s)) * _falling(np.multiply.outer(a * (right - left), s))
+    return factors
+
+
+@kernel("void(float64[:,::1], float64[:,::1], float64[:,::1])")
+def _sum_of_products(rows: Array, columns: Array, out: Array) -> None:
+    terms = np.empty(rows.shape[1])
+    for j in range(out.shape[0]):
+        for i in range(out.shape[1]):
+            for k in range(terms.size):
+                terms[k] = rows[j, k] * columns[i, k]
+            out[j, i] = lane_sum(terms, terms.size)

@@ -1,0 +1,172 @@
+"""The step: 1 on one side of a straight line, 0 on the other, sheer or over a width; with its exact mean over a pixel.
+
+The part of a box below a line is the distribution function of a sum of two uniform numbers: quadratic, linear,
+quadratic in the line's distance from the box's nearest corner. That distance cancels where pixels are small against
+their place, so it is a difference of double-doubles, and areas above one half are one less the opposite corner's.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from samplekit import Scene, UsageError
+from samplekit._builtin.scenes.smooth_step import smooth_constant, smooth_means, smooth_sums
+from samplekit.kernels import dd_add, helper, kernel, two_product
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+
+def direction(degrees: float) -> tuple[float, float]:
+    """Return cosine and sine, within 2e-16; multiples of 90 give exact zeros and ones, of 45 equal magnitudes.
+
+    The reduction to [-45, 45] is exact, however large the angle (remainder: IEEE 754-2019, 5.3.1).
+    """
+    turned = math.remainder(degrees, 360.0)
+    quarters = round(turned / 90.0)
+    rest = turned - 90.0 * quarters
+    cosine, sine = math.cos(math.radians(rest)), math.sin(math.radians(rest))
+    if abs(rest) == 45.0:
+        cosine, sine = math.sqrt(0.5), math.copysign(math.sqrt(0.5), rest)
+    x, y = ((cosine, sine), (-sine, cosine), (-cosine, -sine), (sine, -cosine))[quarters % 4]
+    return x + 0.0, y + 0.0  # No negative zeros.
+
+
+@kernel("void(float64[:,:,::1], float64[:,::1], float64[::1], float64, float64, float64)")
+def _sums(tile: Array, boxes: Array, out: Array, cosine: float, sine: float, offset: float) -> None:
+    for pixel in range(tile.shape[0]):
+        left, width, top, height = boxes[0, pixel], boxes[1, pixel], boxes[2, pixel], boxes[3, pixel]
+        # An integer: its sum has no order, so the loop becomes vector instructions.
+        below = 0
+        for i in range(tile.shape[2]):
+            x = left + tile[pixel, 0, i] * width
+            y = top + tile[pixel, 1, i] * height
+            below += cosine * x + sine * y < offset
+        out[pixel] = below
+
+
+@helper
+def _corner(distance: float, p: float, q: float) -> float:
+    """Return P(p U + q V < distance) for independent uniform U, V, where ``distance`` <= (p + q) / 2."""
+    shorter, longer = min(p, q), max(p, q)
+    if distance <= 0.0:
+        return 0.0
+    if distance <= shorter:
+        return 0.5 * (distance / shorter) * (distance / longer)
+    return (distance - 0.5 * shorter) / longer
+
+
+@kernel("void(float64[::1], float64[::1], float64, float64, float64, float64[:,::1], float64[:,::1])")
+def _distances(x: Array, y: Array, cosine: float, sine: float, offset: float, below: Array, above: Array) -> None:
+    """Write how far the line is past each pixel's first corner, and the last corner past the line: float64[h, w]."""
+    rows, columns = below.shape
+    # How far each vertical edge goes towards the line, as a double-double.
+    taken, taken_low = np.empty(columns + 1), np.empty(columns + 1)
+    for i in range(columns + 1):
+        taken[i], taken_low[i] = two_product(-cosine, x[i])
+    # The corner nearest to the side of ones, and its opposite.
+    left = 0 if cosine >= 0.0 else 1
+    top = 0 if sine >= 0.0 else 1
+    for j in range(rows):
+        product, error = two_product(-sine, y[j + top])
+        near, near_low = dd_add(offset, 0.0, product, error)
+        product, error = two_product(-sine, y[j + 1 - top])
+        far, far_low = dd_add(offset, 0.0, product, error)
+        for i in range(columns):
+            below[j, i] = dd_add(near, near_low, taken[i + left], taken_low[i + left])[0]
+            above[j, i] = -dd_add(far, far_low, taken[i + 1 - left], taken_low[i + 1 - left])[0]
+
+
+@kernel("void(float64[:,::1], float64[:,::1], float64[::1], float64[::1], float64[:,::1])")
+def _means(below: Array, above: Array, p: Array, q: Array, out: Array) -> None:
+    """Write the part of each pixel on the side of ones into ``out`` float64[h, w]; p, q: extents along the normal."""
+    for j in range(out.shape[0]):
+        for i in range(out.shape[1]):
+            if above[j, i] <= 0.0:
+                out[j, i] = 1.0
+            elif below[j, i] <= above[j, i]:
+                out[j, i] = _corner(below[j, i], p[i], q[j])
+            else:
+                out[j, i] = 1.0 - _corner(above[j, i], p[i], q[j])
+
+
+def _product_bounds(edges: Array, factor: float) -> tuple[Array, Array]:
+    """Bound from below and above the products ``factor * x`` that ``_sums`` meets in every interval: float64[n] each.
+
+    Its every operation is monotone, rounded or not, so the first and the last sample of an interval bound all.
+    The slack is for widths that were rounded otherwise than here.
+    """
+    first = edges[:-1] * factor
+    last = np.maximum(edges[:-1] + np.diff(edges) * (1.0 + 2.0**-50), edges[1:]) * factor
+    return np.minimum(first, last), np.maximum(first, last)
+
+
+class Step(Scene):
+    """1 where cos(angle) x + sin(angle) y < offset, else 0; with a width the sigmoid 1 / (1 + exp(d / width)).
+
+    d = cos(angle) x + sin(angle) y - offset is the distance from the line; the slope there is 1 / (4 width).
+
+    The half-plane is that of the float64 numbers ``cosine``, ``sine`` and ``offset``: they are the scene, for samples
+    and reference alike, and differ from those of the true angle by at most 2e-16.
+
+    Parameters
+    ----------
+    angle
+        Direction of the line's normal in degrees, towards the zeros; 90 looks down the image. Any finite number.
+    offset
+        Distance of the line from the origin along the normal. Any number from -1e150 to 1e150.
+    width
+        0 (sheer), or from 1e-150 to 1e150.
+
+    Raises
+    ------
+    UsageError
+        A parameter outside its range, or NaN.
+    """
+
+    def __init__(self, angle: float = 0.0, offset: float = 0.5, width: float = 0.0) -> None:
+        if not math.isfinite(angle):
+            raise UsageError(f"angle={angle}: expected a finite number")
+        if not abs(offset) <= 1e150:
+            raise UsageError(f"offset={offset}: expected a number from -1e150 to 1e150")
+        if not (width == 0.0 or 1e-150 <= width <= 1e150):
+            raise UsageError(f"width={width}: expected 0, or a number from 1e-150 to 1e150")
+        self.cosine, self.sine = direction(angle)
+        self.offset, self.width = float(offset), float(width)
+
+    def sums(self, tile: Array, boxes: Array, out: Array) -> None:
+        """Count the samples on the side of ones, or sum the sigmoid."""
+        if self.width > 0.0:
+            smooth_sums(tile, boxes, self.cosine, self.sine, self.offset, self.width, out)
+        else:
+            _sums(tile, boxes, out, self.cosine, self.sine, self.offset)
+
+    def exact(self, x_edges: Array, y_edges: Array) -> Array:
+        """Return the mean over each pixel: float64[h, w], within 1e-15; with a width 2e-15, and 1e-12 relative.
+
+        Edges may lie anywhere; the bound holds for widths and heights above 1e-14 of their distance from the origin.
+        """
+        x, y = np.array(x_edges, np.float64), np.array(y_edges, np.float64)
+        below, above, means = np.empty((3, y.size - 1, x.size - 1))
+        _distances(x, y, self.cosine, self.sine, self.offset, below, above)
+        p, q = abs(self.cosine) * np.diff(x), abs(self.sine) * np.diff(y)
+        if self.width > 0.0:
+            smooth_means(below, above, p, q, self.width, means)
+        else:
+            _means(below, above, p, q, means)
+        return means
+
+    def constant(self, x_edges: Array, y_edges: Array) -> Array:
+        """Return 1 or 0 where every sample of the pixel gives that in ``sums``, rounding included; NaN elsewhere."""
+        low_x, high_x = _product_bounds(np.asarray(x_edges, np.float64), self.cosine)
+        low_y, high_y = _product_bounds(np.asarray(y_edges, np.float64), self.sine)
+        if self.width > 0.0:
+            return smooth_constant(low_y[:, None] + low_x, high_y[:, None] + high_x, self.offset, self.width)
+        known = np.where(high_y[:, None] + high_x < self.offset, 1.0, np.nan)
+        known[low_y[:, None] + low_x >= self.offset] = 0.0
+        return known

@@ -1,0 +1,131 @@
+"""Commands from plugins: found when a name is not one of ours, imported when they run."""
+
+from __future__ import annotations
+
+import functools
+import os
+from typing import TYPE_CHECKING, Any
+
+import typer
+from typer.core import TyperGroup
+
+from samplekit._cli.panels import arranged
+from samplekit._cli.single_options import SingleOptionsCommand
+from samplekit._errors import SamplekitError, UsageError
+from samplekit._guard import Guard
+from samplekit._quoting import quoted, reason
+
+if TYPE_CHECKING:
+    from samplekit._registry import Offer
+
+OFFICIAL = {"spectrum": "samplekit-spectrum", "predict": "samplekit-spectrum"}
+"""Commands of our own plugins, by the distribution that they come with: who misses one is told where it is."""
+
+# typer does not export the base of its own exceptions, and it lives in a private module.
+_TyperError: type[Exception] = typer.BadParameter.__mro__[2]
+
+_CHOSEN = "samplekit.command-chosen"
+_LARGEST_STATUS = 255
+
+
+class PluginGroup(TyperGroup):
+    """The group of all commands: ours first, which nobody can replace, then those that plugins declare."""
+
+    def get_params(self, ctx: Any) -> list[Any]:
+        """Its parameters, arranged for its help."""
+        return arranged(super().get_params(ctx))
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        """Find the command that was chosen, to be run or completed: only then is its plugin imported."""
+        ctx.meta[_CHOSEN] = True
+        return super().resolve_command(ctx, args)
+
+    def list_commands(self, ctx: Any) -> list[str]:
+        """Our commands in the order of their making, then plugins' commands, sorted."""
+        from samplekit._registry import registry
+
+        own = super().list_commands(ctx)
+        return [*own, *(name for name in registry().all("command") if name not in own)]
+
+    def get_command(self, ctx: Any, cmd_name: str) -> Any:
+        """Our command of that name, else the plugin's; unknown names get the nearest."""
+        own = super().get_command(ctx, cmd_name)
+        if own is not None:
+            return own
+        from samplekit._registry import registry
+
+        try:
+            offer = registry().find("command", cmd_name)
+        except UsageError as error:
+            if ctx.resilient_parsing:
+                # Completion of what cannot be: there is nothing to complete.
+                return None
+            raise UsageError(_unknown(cmd_name, super().list_commands(ctx), str(error))) from None
+        if not ctx.meta.get(_CHOSEN):
+            # Help needs the declaration alone.
+            return typer.main.get_command(_described(offer.called, offer.spec.summary))
+        try:
+            return _made(offer)
+        except SamplekitError:
+            if ctx.resilient_parsing:
+                return None
+            raise
+
+
+def _made(offer: Offer) -> Any:
+    """The command of a plugin, whose faults name it."""
+    guard = Guard(f"command {offer.called}", offer.plugin)
+    run = guard("cannot be set up", offer.spec.load, callable, "a function")
+
+    @functools.wraps(run)
+    def guarded(*arguments: Any, **options: Any) -> Any:
+        try:
+            status = run(*arguments, **options)
+        except (SamplekitError, MemoryError, OSError, typer.Exit, typer.Abort, _TyperError):
+            raise
+        except Exception as error:
+            if os.environ.get("SAMPLEKIT_TRACEBACK"):
+                raise
+            raise guard.blame(f"failed: {reason(error)}") from error
+        if isinstance(status, int) and not (isinstance(status, bool) or 0 <= status <= _LARGEST_STATUS):
+            raise guard.blame(
+                f"returned {quoted(status)}: expected an exit status from 0 to {_LARGEST_STATUS}, or None"
+            )
+        return None if isinstance(status, bool) else status
+
+    single = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
+    single.command(offer.called, help=_plain(run.__doc__ or offer.spec.summary), cls=SingleOptionsCommand)(guarded)
+    return guard("cannot be set up", lambda: typer.main.get_command(single))
+
+
+def _plain(summary: str) -> str:
+    """The summary with its brackets kept from being taken for markup."""
+    return summary.replace("[", r"\[")
+
+
+def _described(name: str, summary: str) -> typer.Typer:
+    app = typer.Typer(add_completion=False)
+
+    @app.command(name, help=_plain(summary))
+    def _command() -> None: ...
+
+    return app
+
+
+def _unknown(name: str, own: list[str], said: str) -> str:
+    import difflib
+
+    _, _, plugins = said.partition(" (plugins ")
+    plugins = f" (plugins {plugins}" if plugins else ""
+    if name in OFFICIAL:
+        where = f"{OFFICIAL[name]} (plugins/{OFFICIAL[name].removeprefix('samplekit-')} in samplekit's sources)"
+        return f"the command {name!r} comes with the plugin {where}, which is not installed or did not load{plugins}"
+    if "is offered by" in said:
+        return said
+    from samplekit._registry import registry
+
+    others = [other for other in registry().all("command") if other not in own]
+    near = difflib.get_close_matches(name, [*own, *others], n=1, cutoff=0.5)
+    if near:
+        return f"unknown command {name!r}: did you mean {near[0]}?"
+    return f"unknown command {name!r}: there are {', '.join([*own, *others])}{plugins}"

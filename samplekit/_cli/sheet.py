@@ -1,0 +1,94 @@
+"""One sampler, scene, randomizer or plugin in full, line by line: what ``samplekit list KIND NAME`` prints."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from samplekit._cli import words
+from samplekit._specs import RandomizerSpec, SamplerSpec, SceneSpec
+
+if TYPE_CHECKING:
+    from samplekit._registry import Plugin
+
+    Chosen = tuple[str, SamplerSpec | SceneSpec | RandomizerSpec, Plugin]
+
+Rows = dict[str, list[str]]
+
+
+def choose(kind: str, text: str) -> Chosen:
+    """What is written ``text``: its name, its declaration, its plugin. Imports no implementation for a plain name.
+
+    Raises
+    ------
+    UsageError
+        There is none; a sampler's option that it does not take.
+    """
+    if kind == "samplers" and (":" in text or "+" in text):
+        # Options and randomizers change a declaration, and only the implementation knows how.
+        from samplekit._chosen.sampler import configured_sampler
+
+        sampler = configured_sampler(text)
+        return sampler.text, sampler.spec, sampler.plugin
+    from samplekit._registry import registry
+
+    offer = registry().find(kind[:-1], text)  # type: ignore[arg-type]
+    return text, offer.spec, offer.plugin
+
+
+def describe(spec: SamplerSpec | SceneSpec | RandomizerSpec, plugin: Plugin) -> Rows:
+    """All that a declaration says, in words: lines by their heading."""
+    rows: Rows = {"what it is": [spec.summary], "reference": [spec.reference], "plugin": [str(plugin)]}
+    if isinstance(spec, SamplerSpec):
+        rows |= _sampler(spec)
+    elif isinstance(spec, SceneSpec):
+        rows["dimensions"] = [", ".join(f"{purpose} {number}" for purpose, number in spec.purposes)]
+    else:
+        rows["keeps"] = [", ".join(spec.keeps) or "no promise"]
+    width = max((len(f"{option.name}={option.default}") for option in spec.options), default=0)
+    rows["options"] = [
+        f"{f'{option.name}={option.default}':<{width}}  {words.option(option)}".rstrip() for option in spec.options
+    ]
+    return {heading: lines for heading, lines in rows.items() if any(lines)}
+
+
+def _sampler(spec: SamplerSpec) -> Rows:
+    random = "yes: another seed, and another realisation, gives other points" if spec.randomized else "no"
+    rows: Rows = {
+        "dimensions": [words.dimensions(spec)],
+        "points": [words.counts(spec)],
+        "progressive": [words.progressive(spec)],
+        "random": [random],
+        "unbiased": ["yes" if spec.unbiased else "no"],
+        "largest index": [str(spec.largest_index)],
+        "promises": [words.promise(promise) for promise in spec.promises],
+        "known to fail": [f"{check}: {reason}" for check, reason in spec.expected_failures.items()],
+    }
+    if spec.randomized:
+        rows["period"] = ["none" if spec.period is None else f"{spec.period} pixels"]
+    if spec.screen_block is not None:
+        rows["screen"] = [words.screen(spec.screen_block)]
+    if spec.fresh_options:
+        given = ",".join(f"{name}={value}" for name, value in spec.fresh_options.items())
+        rows["fresh sets"] = [f"{given}: every realisation is made afresh, none is used twice"]
+    return rows
+
+
+def describe_plugin(plugin: Plugin) -> Rows:
+    """A plugin: where it comes from, what it offers, what is wrong with it."""
+    rows: Rows = {
+        "distribution": [f"{plugin.distribution} {plugin.version}"],
+        "status": ["switched off" if plugin.blocked else "problem" if plugin.problems else "loaded"],
+        "problems": plugin.problems,
+    }
+    rows |= {f"{kind}s": [", ".join(names)] for kind, names in plugin.offers.items()}
+    return {heading: lines for heading, lines in rows.items() if any(lines)}
+
+
+def lines(title: str, rows: Rows) -> list[str]:
+    """The rows under their title as text: headings on the left, what they have on the right."""
+    width = max(len(heading) for heading in rows)
+    written = [title]
+    for heading, texts in rows.items():
+        for index, text in enumerate(texts):
+            written.append(f"  {heading if index == 0 else '':<{width}}  {text}".rstrip())
+    return written

@@ -1,0 +1,211 @@
+"""How far an image is from its reference, in numbers.
+
+Differences are scaled by a power of two before they are squared, and scaled back after the square root: root mean
+squares are right for any finite input, also where the mean square itself is beyond the range of float64 (it is then 0
+or infinity, as stored).
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from samplekit._errors import UsageError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+Array = NDArray[np.float64]
+
+BLUR_SIGMA = 2.0
+"""Standard deviation in pixels of the Gaussian of ``blurred_mse``."""
+BLUR_RADIUS = 8
+"""Pixels after which that Gaussian is cut off: four standard deviations."""
+
+
+def metrics(image: ArrayLike, reference: ArrayLike, *, ssim: bool = False, flip: bool = False) -> dict[str, float]:
+    """Metrics of an image against its reference, over all pixels in which both are finite.
+
+    Parameters
+    ----------
+    image, reference
+        float64[h, w], linear; of one shape, with at least one pixel.
+    ssim, flip
+        Whether to compute these as well.
+
+    Returns
+    -------
+    dict
+        With e = image - reference:
+
+        ``mse``, ``rmse``, ``mae``, ``max_error``
+            Mean of e², its square root, mean of the magnitude of e, its maximum.
+        ``bias``
+            Mean of e, from an exactly rounded sum: what cancels, cancels.
+        ``psnr``
+            10 log10(1 / mse), in decibels, for a peak of 1; infinity where every e is 0.
+        ``relative_mse``
+            Mean of e² / (reference² + 0.01).
+        ``blurred_mse``
+            Mean square of e after a Gaussian blur of sigma 2 pixels (cut off at 8 pixels, normalised to 1, the image
+            reflected at its edges, the edge pixel repeated): what remains of an error that is blue noise is small.
+            Around pixels that are not finite the kernel is normalised over the others.
+        ``invalid_pixels``
+            Number of pixels that are NaN or infinite in the image or the reference. All metrics leave them out; if no
+            pixel is left, they are NaN.
+        ``ssim``
+            Mean structural similarity (Wang et al. 2004) for a data range of 1, in windows of 7 x 7 pixels, as
+            ``skimage.metrics.structural_similarity`` has it; windows with an invalid pixel are left out.
+            NaN where squares of the values themselves overflow.
+        ``flip``
+            Mean FLIP error (Andersson et al. 2020), values clamped to [0, 1]; invalid pixels are black in both images,
+            and left out of the mean.
+
+    Raises
+    ------
+    UsageError
+        Other shapes; SSIM of an image with fewer than 7 x 7 pixels.
+    SamplekitError
+        FLIP with an OpenImageIO that has none.
+    """
+    image = np.asarray(image, np.float64)
+    reference = np.asarray(reference, np.float64)
+    if image.shape != reference.shape or image.ndim != 2 or image.size == 0:
+        raise UsageError(
+            f"metrics need two images of one shape [h, w], not {list(image.shape)} and {list(reference.shape)}"
+        )
+    if ssim:
+        check_ssim(image.shape[::-1])
+    valid = np.isfinite(image) & np.isfinite(reference)
+    if not valid.all():
+        image, reference = np.where(valid, image, 0.0), np.where(valid, reference, 0.0)
+    result = _errors(image, reference, valid)
+    result["invalid_pixels"] = int(valid.size - np.count_nonzero(valid))
+    if ssim:
+        result["ssim"] = _ssim(image, reference, valid)
+    if flip:
+        from samplekit.files._images.flip import flip_map
+
+        result["flip"] = _mean(flip_map(image, reference)[valid])
+    return result
+
+
+def _errors(image: Array, reference: Array, valid: NDArray[np.bool_]) -> dict[str, float]:
+    # Only values near the largest float: dividing the smallest would lose their digits.
+    shrink = 8 if max(np.abs(image).max(), np.abs(reference).max()) > 2.0**1000 else 0
+    error = _times_power_of_two(image, -shrink) - _times_power_of_two(reference, -shrink)
+    scaled, power = _scaled(error)
+    power += shrink
+    mean_square = _mean(np.square(scaled[valid]))
+    relative, relative_power = _scaled(error / _floored(reference))
+    blurred, blurred_power = _scaled(blur(scaled, valid))
+    return {
+        "mse": _times_power(mean_square, 2 * power),
+        "rmse": _times_power(math.sqrt(mean_square), power),
+        "mae": _times_power(_mean(np.abs(scaled[valid])), power),
+        "max_error": _times_power(float(np.abs(scaled).max()) if valid.any() else math.nan, power),
+        "bias": _times_power(_exact_mean(scaled[valid]), power),
+        "psnr": math.inf if mean_square == 0.0 else -10.0 * (math.log10(mean_square) + 2 * power * math.log10(2.0)),
+        "relative_mse": _times_power(_mean(np.square(relative[valid])), 2 * (relative_power + shrink)),
+        "blurred_mse": _times_power(_mean(np.square(blurred[valid])), 2 * (blurred_power + power)),
+    }
+
+
+def _scaled(values: Array) -> tuple[Array, int]:
+    """Divide values by the power of two that brings the largest into [1/2, 1); return that power's exponent as well."""
+    exponent = math.frexp(float(np.abs(values).max()))[1]
+    return _times_power_of_two(values, -exponent), exponent
+
+
+def _times_power_of_two(values: Array, exponent: int) -> Array:
+    """Return ``values`` * 2^``exponent``."""
+    if exponent == 0:
+        return values
+    # One multiplication is exact and ten times as fast as ldexp, while the factor itself is a normal number.
+    return values * 2.0**exponent if abs(exponent) < 1000 else np.ldexp(values, exponent)
+
+
+def _floored(reference: Array) -> Array:
+    """Return sqrt(reference^2 + 1e-2), what the relative error is relative to."""
+    if np.abs(reference).max() > 2.0**500:
+        return np.hypot(reference, 0.1)
+    floored: Array = np.sqrt(reference * reference + 1e-2)
+    return floored
+
+
+def _times_power(value: float, exponent: int) -> float:
+    """Return ``value`` * 2^``exponent``, infinity beyond the largest float."""
+    with np.errstate(over="ignore", under="ignore"):
+        return float(np.ldexp(value, exponent))
+
+
+def _mean(values: Array) -> float:
+    """Return the mean of float64[n], summed pairwise; NaN of nothing."""
+    return float(values.mean()) if values.size else math.nan
+
+
+def _exact_mean(values: Array) -> float:
+    """Return the mean of float64[n] from a sum rounded once; NaN of nothing."""
+    chunks = (values[start : start + 65536].tolist() for start in range(0, values.size, 65536))
+    return math.fsum(itertools.chain.from_iterable(chunks)) / values.size if values.size else math.nan
+
+
+def blur(error: Array, valid: NDArray[np.bool_]) -> Array:
+    """The error after the Gaussian blur of ``blurred_mse``, invalid pixels (0 in ``error``) left out of the kernel."""
+    # Written out, it takes as long as scipy.ndimage's and saves its import, which takes longer than either.
+    blurred = _convolved(_convolved(error, 0), 1)
+    if valid.all():
+        return blurred
+    weight = _convolved(_convolved(valid.astype(np.float64), 0), 1)
+    return np.where(valid, blurred / np.where(valid, weight, 1.0), 0.0)
+
+
+def _convolved(values: Array, axis: int) -> Array:
+    offsets = np.arange(BLUR_RADIUS + 1)
+    kernel = np.exp(-0.5 * np.square(offsets / BLUR_SIGMA))
+    kernel /= kernel[0] + 2.0 * kernel[1:].sum()
+    length = values.shape[axis]
+    padding = [(0, 0), (0, 0)]
+    padding[axis] = (BLUR_RADIUS, BLUR_RADIUS)
+    padded = np.pad(values, padding, mode="symmetric")
+
+    def shifted(by: int) -> Array:
+        return padded[by : by + length] if axis == 0 else padded[:, by : by + length]
+
+    result: Array = shifted(BLUR_RADIUS) * kernel[0]
+    for offset in range(1, BLUR_RADIUS + 1):
+        pair = shifted(BLUR_RADIUS - offset) + shifted(BLUR_RADIUS + offset)
+        pair *= kernel[offset]
+        result += pair
+    return result
+
+
+_SSIM_WINDOW = 7
+
+
+def check_ssim(size: Sequence[int]) -> None:
+    """Raise if an image of ``size`` (width, height) is too small for SSIM.
+
+    Raises
+    ------
+    UsageError
+        It has fewer than 7 x 7 pixels.
+    """
+    if min(size) < _SSIM_WINDOW:
+        raise UsageError(f"ssim needs at least 7 x 7 pixels, the image has {size[0]} x {size[1]}: leave ssim out")
+
+
+def _ssim(image: Array, reference: Array, valid: NDArray[np.bool_]) -> float:
+    from skimage.metrics import structural_similarity
+
+    with np.errstate(all="ignore"):
+        mean, local = structural_similarity(image, reference, data_range=1.0, win_size=_SSIM_WINDOW, full=True)
+    if valid.all():
+        return float(mean)
+    whole = np.lib.stride_tricks.sliding_window_view(valid, (_SSIM_WINDOW, _SSIM_WINDOW)).all(axis=(2, 3))
+    edge = _SSIM_WINDOW // 2
+    return _mean(local[edge:-edge, edge:-edge][whole])

@@ -1,0 +1,84 @@
+"""What the page says first: for each scene the sentences about it, and the best sampler for each budget of time."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from samplekit._report.wording import counted, number, seconds
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from samplekit._study.results import Choice, Results
+
+_OPEN_END = 4.0
+"""The last budget has no end: it is drawn up to this multiple of its start, or of all that comes before."""
+
+
+@dataclass(frozen=True)
+class Budget:
+    """A range of times in which one sampler is best: what is said of it, and its place in a strip, in percent."""
+
+    sampler: str
+    words: str
+    start: float
+    width: float
+
+
+@dataclass(frozen=True)
+class Answer:
+    """A scene: the sentences on the whole, those about single samplers, and the best choices."""
+
+    scene: str
+    lead: list[str]
+    details: list[str]
+    budgets: list[Budget]
+
+
+def arranged(results: Results) -> tuple[list[Answer], list[str]]:
+    """The answers scene by scene, and the sentences that are about no single scene."""
+    general = []
+    lead: dict[str, list[str]] = {scene: [] for scene in results.scenes}
+    details: dict[str, list[str]] = {scene: [] for scene in results.scenes}
+    for sentence in results.sentences:
+        for scene in results.scenes:
+            if sentence.startswith(f"{scene}: "):
+                text = sentence.removeprefix(f"{scene}: ")
+                lead[scene].append(text[:1].upper() + text[1:])
+                break
+            if any(sentence.startswith(f"{scene}, {sampler}: ") for sampler in results.samplers):
+                details[scene].append(sentence.removeprefix(f"{scene}, "))
+                break
+        else:
+            general.append(sentence)
+    fronts = {scene: [choice for choice in results.front if choice.scene == scene] for scene in results.scenes}
+    return [Answer(scene, lead[scene], details[scene], budgets(fronts[scene])) for scene in results.scenes], general
+
+
+def budgets(front: Sequence[Choice]) -> list[Budget]:
+    """One range for each run of choices of the same sampler, on a logarithmic strip of times."""
+    runs = [list(run) for _, run in itertools.groupby(front, key=lambda choice: choice.sampler)]
+    if not runs or front[0].seconds <= 0.0:
+        return []
+    begin = math.log(front[0].seconds)
+    end = max(math.log(front[-1].seconds * _OPEN_END), begin + 1.25 * (math.log(front[-1].seconds) - begin))
+    found = []
+    for run in runs:
+        until = run[-1].until
+        left = (math.log(run[0].seconds) - begin) / (end - begin)
+        right = 1.0 if until is None else (math.log(until) - begin) / (end - begin)
+        found.append(Budget(run[0].sampler, _words(run, until), 100.0 * left, 100.0 * (right - left)))
+    return found
+
+
+def _words(run: Sequence[Choice], until: float | None) -> str:
+    first, last = run[0], run[-1]
+    time = f"from {seconds(first.seconds, 2)}" + ("" if until is None else f" to {seconds(until, 2)}")
+    if first.count == last.count:
+        return f"{time}: {first.sampler}, {counted(first.count, 'sample')}, MSE {number(first.mse, 2)}"
+    least, most = sorted((first.count, last.count))
+    errors = f"MSE {number(first.mse, 2)} to {number(last.mse, 2)}"
+    return f"{time}: {first.sampler}, {least} to {counted(most, 'sample')}, {errors}"

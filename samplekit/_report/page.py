@@ -1,0 +1,141 @@
+"""The page: template, style, scripts and data in one text."""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+from dataclasses import asdict
+from importlib.resources import files
+from typing import TYPE_CHECKING, Any
+
+import jinja2
+from markupsafe import Markup
+
+from samplekit._report import wording
+from samplekit._report.answers import arranged
+from samplekit._report.pixels import STEPS, packed
+from samplekit._study.results import LEVEL
+from samplekit.files._images import diverging
+from samplekit.files._images.png import RESERVED
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
+    from samplekit._study.results import Results
+
+_ASSETS = files("samplekit._report") / "assets"
+_LIBRARY = "vendor/d3.min.js"
+STYLES = ("base", "controls", "answers", "tables", "charts", "images", "made", "phone", "paper")
+"""The page's style sheets, in the order in which they apply."""
+
+SCRIPTS = (
+    "state",
+    "format",
+    "fitting",
+    "series",
+    "chart_axes",
+    "chart_marks",
+    "chart",
+    "tooltip",
+    "charts",
+    "ranking",
+    "flips",
+    "controls",
+    "pixels",
+    "viewer",
+    "compare",
+    "table",
+    "start",
+)
+"""The page's own scripts: one after the other they are one script."""
+
+
+def page(results: Results, folder: Path) -> str:
+    """The page as text.
+
+    Every text of the study is escaped, and scripts run only if they are the page's own: their hashes are in its policy,
+    which allows no connection either.
+
+    Parameters
+    ----------
+    results
+        What was found.
+    folder
+        Where the paths in ``results`` begin.
+
+    Raises
+    ------
+    UsageError, SamplekitError
+        An image is missing or damaged.
+    """
+    style = "\n".join(asset(f"style/{name}.css") for name in STYLES)
+    scripts = [asset(_LIBRARY), '"use strict";\n' + "\n".join(asset(f"scripts/{name}.js") for name in SCRIPTS)]
+    pictures = packed(results, folder)
+    answers, general = arranged(results)
+    study = asdict(results) | {"seed": str(results.seed)}
+    data = {
+        "study": study,
+        "pictures": pictures.scenes,
+        "error_colours": diverging.table().tobytes().hex(),
+        "invalid_colour": RESERVED,
+    }
+    environment = jinja2.Environment(
+        loader=jinja2.FunctionLoader(asset), autoescape=True, undefined=jinja2.StrictUndefined, lstrip_blocks=True
+    )
+    environment.filters |= wording.FILTERS
+    environment.policies["json.dumps_kwargs"] = {"allow_nan": False, "separators": (",", ":")}
+    return environment.get_template("page.html").render(
+        title="Error against samples and run time",
+        study=results,
+        size=tuple(results.size),
+        samplers=results.samplers,
+        level=LEVEL,
+        answers=answers,
+        general=general,
+        fits={(fit.scene, fit.sampler): fit for fit in results.fits},
+        timed=any(row.times for row in results.rows),
+        blurred=any(row.blurred_mse for row in results.rows),
+        references=references(results),
+        files=[name for name in ("results.json", "results.csv", *results.plots) if (folder / name).is_file()],
+        pictures=pictures.scenes,
+        steps=STEPS,
+        data=data,
+        blobs=list(pictures.blobs.items()),
+        style=Markup(style),
+        scripts=[Markup(script) for script in scripts],
+        policy=policy([style], scripts),
+        library=asset(_LIBRARY).partition("\n")[0].removeprefix("// "),
+        library_licence=asset("vendor/d3.LICENSE"),
+    )
+
+
+def asset(name: str) -> str:
+    """A file that the page is made of."""
+    return _ASSETS.joinpath(*name.split("/")).read_text(encoding="utf-8")
+
+
+def policy(styles: Sequence[str], scripts: Sequence[str]) -> str:
+    """What a browser may do with the page: run and apply the texts that are part of it, and nothing else."""
+
+    def hashes(texts: Sequence[str]) -> str:
+        digests = (hashlib.sha256(text.encode()).digest() for text in texts)
+        return " ".join(f"'sha256-{base64.b64encode(digest).decode()}'" for digest in digests)
+
+    allowed = {
+        "default-src": "'none'",
+        "script-src": hashes(scripts),
+        "style-src": hashes(styles),
+        "base-uri": "'none'",
+        "form-action": "'none'",
+    }
+    return "; ".join(f"{name} {value}" for name, value in allowed.items())
+
+
+def references(results: Results) -> dict[str, str]:
+    """For each scene what its errors are measured against, and how far that may be off."""
+    found: dict[str, Any] = {}
+    for row in results.rows:
+        bound = "" if row.reference_error == 0.0 else f", off by at most {wording.number(row.reference_error, 2)}"
+        found.setdefault(row.scene, row.reference_kind + bound)
+    return found

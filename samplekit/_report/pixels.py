@@ -1,0 +1,162 @@
+"""The images of a study, small enough to lie in the page.
+
+An error is stored in whole steps, the step a power of two of at most 1/64 of the image's own root mean square: every
+pixel is right to 1/128 of that. The reference is stored once for each scene, as it is in the
+EXR files. Where all pixels of all images would be too much for one page, each scene keeps the window with the largest
+errors; nothing is made coarser.
+"""
+
+from __future__ import annotations
+
+import base64
+import math
+import zlib
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from samplekit._errors import SamplekitError
+from samplekit.files._images.exr import read_parts
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from pathlib import Path
+
+    from numpy.typing import NDArray
+
+    from samplekit._study.results import Results, Row
+
+STEPS = 64
+"""A step is at most this part of the root mean square of the error."""
+
+BUDGET = 18_000_000
+"""Characters that all images of a page may take together."""
+
+_INVALID = 0xFFFFFF
+
+
+@dataclass(frozen=True)
+class Packed:
+    """The images of a page: what its scripts read, and the packed pixels by the names that stand there."""
+
+    scenes: list[dict[str, Any]]
+    blobs: dict[str, str]
+
+
+def packed(results: Results, folder: Path, budget: int = BUDGET) -> Packed:
+    """Pack the first trials' images, of every scene that has some.
+
+    Raises
+    ------
+    UsageError, SamplekitError
+        An EXR file is missing or damaged, or has another size than the study.
+    """
+    rows_of = {
+        scene: [(index, row) for index, row in enumerate(results.rows) if row.scene == scene and row.pictures]
+        for scene in results.scenes
+    }
+    size = results.size
+    weights: dict[str, NDArray[np.float64]] = {}
+    while True:
+        scenes: list[dict[str, Any]] = []
+        blobs: dict[str, str] = {}
+        for scene, rows in rows_of.items():
+            if not rows:
+                continue
+            place = _heaviest(weights[scene], size) if weights and size != results.size else (0, 0)
+            weight = np.zeros((results.size[1], results.size[0]))
+            items, reference = _images(rows, folder, results.size, (*place, *size), weight, blobs)
+            weights[scene] = weight
+            scenes.append(
+                {
+                    "scene": scene,
+                    "width": size[0],
+                    "height": size[1],
+                    "window": place,
+                    "windowed": size != results.size,
+                    "reference": reference,
+                    "items": items,
+                }
+            )
+        needed = sum(len(text) for text in blobs.values())
+        if needed <= budget or max(size) == 1:
+            return Packed(scenes, blobs)
+        shrink = 0.97 * math.sqrt(budget / needed)
+        size = (max(1, int(shrink * size[0])), max(1, int(shrink * size[1])))
+
+
+def _images(
+    rows: Sequence[tuple[int, Row]],
+    folder: Path,
+    whole: tuple[int, int],
+    window: tuple[int, int, int, int],
+    weight: NDArray[np.float64],
+    blobs: dict[str, str],
+) -> tuple[list[dict[str, Any]], str]:
+    """Pack the images of one scene into ``blobs``, add their squared errors, each image alike, to ``weight``."""
+    left, top, width, height = window
+    cut = np.s_[top : top + height, left : left + width]
+    items: list[dict[str, Any]] = []
+    reference_name = f"reference-{rows[0][0]}"
+    for index, row in rows:
+        reference, error = _parts(row, folder, whole)
+        if not items:
+            blobs[reference_name] = pack_reference(reference[cut])
+        squared = np.square(np.where(np.isfinite(error), error, 0.0))
+        weight += squared / (squared.sum() or 1.0)
+        mse = float(squared.sum() / max(1, np.isfinite(error).sum()))
+        name = f"error-{index}"
+        blobs[name], step = pack_error(error[cut])
+        items.append({"row": index, "step": step, "mse": mse, "rmse": math.sqrt(mse), "pixels": name})
+    return items, reference_name
+
+
+def _parts(row: Row, folder: Path, size: tuple[int, int]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    assert row.pictures is not None
+    path = folder / row.pictures.exr
+    parts = read_parts(path).parts
+    for name in ("reference", "error"):
+        if name not in parts or parts[name].shape != (size[1], size[0]):
+            raise SamplekitError(f"{path} has no part {name} of {size[0]} x {size[1]} pixels: run the study anew")
+    return parts["reference"], parts["error"]
+
+
+def _heaviest(weight: NDArray[np.float64], size: tuple[int, int]) -> tuple[int, int]:
+    """Left and top of the window of a size in which the weights' sum is largest."""
+    width, height = size
+    sums = np.zeros((weight.shape[0] + 1, weight.shape[1] + 1))
+    sums[1:, 1:] = weight.cumsum(0).cumsum(1)
+    inside = sums[height:, width:] - sums[:-height, width:] - sums[height:, :-width] + sums[:-height, :-width]
+    top, left = np.unravel_index(int(np.argmax(inside)), inside.shape)
+    return int(left), int(top)
+
+
+def pack_reference(reference: NDArray[np.float64]) -> str:
+    """float32, the four bytes of all pixels in planes, the lowest first."""
+    return _deflated(np.ascontiguousarray(reference, "<f4").view(np.uint8).reshape(-1, 4).T)
+
+
+def pack_error(error: NDArray[np.float64]) -> tuple[str, float]:
+    """Whole steps 0, -1, 1, -2, ... as 24 bits in three planes, the lowest first; and the step, a power of two.
+
+    Pixels that are not finite have the largest code, which is out of reach of the others: an error is at most the root
+    of the number of pixels times the root mean square.
+    """
+    finite = np.isfinite(error)
+    values = np.where(finite, error, 0.0)
+    largest = float(np.abs(values).max(initial=0.0))
+    if largest == 0.0:
+        step = 1.0
+    else:
+        # Scaled before they are squared: no error is too small or too large for its square.
+        rms = largest * math.sqrt(float(np.mean(np.square(values[finite] / largest))))
+        step = math.ldexp(1.0, max(math.floor(math.log2(rms / STEPS)), -149))  # the least of float32, as in the EXR
+    steps = np.rint(values / step).astype(np.int64)
+    codes = np.where(steps < 0, -2 * steps - 1, 2 * steps)
+    codes[~finite] = _INVALID
+    return _deflated(codes.astype("<u4").reshape(-1, 1).view(np.uint8).T[:3]), step
+
+
+def _deflated(planes: NDArray[np.uint8]) -> str:
+    return base64.b64encode(zlib.compress(np.ascontiguousarray(planes).tobytes(), 6)).decode("ascii")

@@ -1,0 +1,147 @@
+"""A sweep for people and for programs: a table of text, CSV, JSON, and the files of a folder."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from samplekit._stability.sweep import precision_lost_beyond
+from samplekit._stability.verdict import MEANINGS
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+    from pathlib import Path
+
+    from samplekit._stability.sweep import Cell
+
+SCHEMA = "samplekit._stability/1"
+_NUMBERS = (
+    "exact",
+    "reference_error",
+    "estimate",
+    "error",
+    "standard_error",
+    "standard_errors",
+    "digits_right",
+    "digits_lost",
+    "arithmetic_error",
+    "sampling_error",
+    "hits",
+    "invalid",
+    "samples",
+)
+
+
+def as_record(cell: Cell) -> dict[str, Any]:
+    """A cell as JSON has it: numbers that are not finite are null."""
+    record: dict[str, Any] = {
+        "scene": f"{cell.name}:{cell.extreme}" if cell.extreme else cell.name,
+        "sampler": cell.sampler,
+        "count": cell.count,
+        "verdict": cell.verdict.kind,
+        "reason": cell.verdict.reason,
+        "measured_twice": cell.repeated,
+    }
+    measured = cell.measured
+    for name in _NUMBERS:
+        number = getattr(measured, name) if measured else None
+        record[name] = number if number is not None and math.isfinite(number) else None
+    return record
+
+
+def as_json(cells: Sequence[Cell], realizations: int, seed: int, files: Sequence[Path]) -> dict[str, Any]:
+    """The whole sweep as JSON has it."""
+    lost = precision_lost_beyond(cells)
+    return {
+        "schema": SCHEMA,
+        "realizations": realizations,
+        "seed": seed,
+        "verdicts": _tally(cells),
+        "precision_lost_beyond": [
+            {"scene": f"{name}:{extreme}" if extreme else name, "sampler": sampler, "count": count}
+            for (name, extreme, sampler), count in lost.items()
+        ],
+        "cells": [as_record(cell) for cell in cells],
+        "files": [str(file) for file in files],
+    }
+
+
+def _tally(cells: Sequence[Cell]) -> dict[str, int]:
+    return {kind: sum(cell.verdict.kind == kind for cell in cells) for kind in MEANINGS}
+
+
+def table(cells: Sequence[Cell]) -> Iterator[str]:
+    """Lines of text: a block for each scene and sampler, a row for each extreme, a column for each count."""
+    counts = sorted({cell.count for cell in cells})
+    lost = precision_lost_beyond(cells)
+    for name in dict.fromkeys(cell.name for cell in cells):
+        of_scene = [cell for cell in cells if cell.name == name]
+        for sampler in dict.fromkeys(cell.sampler for cell in of_scene):
+            rows = [cell for cell in of_scene if cell.sampler == sampler]
+            width = max(len(cell.extreme) for cell in rows)
+            yield f"{name}, {sampler}".ljust(width + 2) + "".join(f"{count:>18}" for count in counts)
+            for extreme in dict.fromkeys(cell.extreme for cell in rows):
+                row = [cell for cell in rows if cell.extreme == extreme]
+                beyond = lost.get((name, extreme, sampler))
+                note = "" if beyond is None else f"  precision lost beyond {beyond}" if beyond else "  precision lost"
+                yield f"  {extreme:<{width}}" + "".join(f"{_words(cell):>18}" for cell in row) + note
+            yield ""
+    tally = ", ".join(f"{number} {kind}" for kind, number in _tally(cells).items() if number)
+    yield f"{len(cells)} cells: {tally}"
+    for kind, meaning in MEANINGS.items():
+        if kind != "right" and any(cell.verdict.kind == kind for cell in cells):
+            yield f"  {kind}: {meaning}"
+    for cell in cells:
+        if cell.verdict.kind == "wrong":
+            yield f"wrong: {cell.name}:{cell.extreme}, {cell.sampler}, {cell.count}: {cell.verdict.reason}"
+
+
+def _words(cell: Cell) -> str:
+    if cell.verdict.kind == "right" and cell.measured:
+        return f"{cell.measured.digits_right:.1f} digits"
+    return cell.verdict.kind
+
+
+def csv_lines(cells: Sequence[Cell]) -> Iterator[str]:
+    """The cells as CSV, one a line, numbers with all their digits."""
+    import csv
+    import io
+
+    names = list(as_record(cells[0])) if cells else []
+    for record in [dict(zip(names, names, strict=True)), *map(as_record, cells)]:
+        line = io.StringIO()
+        csv.writer(line, lineterminator="\n").writerow(["" if value is None else value for value in record.values()])
+        yield line.getvalue()
+
+
+def _file(name: str) -> str:
+    return name.replace("/", "-")
+
+
+def write(folder: Path, cells: Sequence[Cell], realizations: int, seed: int) -> list[Path]:
+    """Write the table and a heat map for each scene, all of them or none.
+
+    Raises
+    ------
+    UsageError
+        The folder cannot be written to.
+    SamplekitError
+        The writing failed.
+    """
+    from samplekit._drawing.raster import draw_pixels
+    from samplekit._provenance import versions
+    from samplekit._stability.heatmap import heat_map
+    from samplekit.files._images.png import png_writer
+    from samplekit.files._verified import text_writer
+    from samplekit.files._writing import write_group
+
+    metadata = {"schema": SCHEMA, "realizations": realizations, "seed": str(seed), "versions": versions()}
+    items = [(folder / "stability.csv", text_writer(list(csv_lines(cells))))]
+    for name in dict.fromkeys(cell.name for cell in cells):
+        of_scene = [cell for cell in cells if cell.name == name]
+        title = f"{name}: {realizations} realisations, seed {seed}"
+        pixels = draw_pixels(heat_map(name, of_scene, title))
+        facts = {**metadata, "scene": name, "cells": [as_record(cell) for cell in of_scene]}
+        items.append((folder / f"{_file(name)}.png", png_writer(pixels, facts)))
+    write_group(items)
+    return [path for path, _ in items]

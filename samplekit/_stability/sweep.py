@@ -1,0 +1,138 @@
+"""The sweep: scenes from mild to stiff, samplers, counts; a verdict on each."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from samplekit._chosen.sampler import configured_sampler
+from samplekit._chosen.scene import configured_scene
+from samplekit._errors import UsageError
+from samplekit._parsing import LARGEST_SEED
+from samplekit._registry import registry
+from samplekit._stability.cell import Measured, measure
+from samplekit._stability.verdict import Verdict, judge
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from samplekit._chosen.sampler import ConfiguredSampler
+    from samplekit._chosen.scene import ConfiguredScene
+    from samplekit._integrate.reference import Reference
+
+SAMPLERS = ("random", "jittered", "correlated-multi-jittered", "halton+owen", "sobol+owen")
+COUNTS = (2**4, 2**8, 2**12, 2**16)
+REALIZATIONS = 32
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A scene, a sampler and a count; what was measured, None where that was refused; and the verdict.
+
+    ``name`` and ``extreme`` are the scene's parts: ``gaussian`` and ``sigma=1e-12``. ``repeated``: a first measurement
+    was beyond 4 standard errors, and this is the second.
+    """
+
+    name: str
+    extreme: str
+    sampler: str
+    count: int
+    measured: Measured | None
+    verdict: Verdict
+    repeated: bool = False
+
+
+def scenes_of(texts: Sequence[str]) -> list[tuple[str, str]]:
+    """Name and options of every scene of a sweep: of a name alone all the extremes that it declares.
+
+    Without any: all scenes that need no option.
+    """
+    chosen: list[tuple[str, str]] = []
+    for text in texts or [
+        name for name, offer in registry().all("scene").items() if not any(o.required for o in offer.spec.options)
+    ]:
+        name, _, options = text.partition(":")
+        extremes = registry().find("scene", name).spec.extremes
+        chosen += [(name, options)] if options or not extremes else [(name, extreme) for extreme in extremes]
+    return list(dict.fromkeys(chosen))
+
+
+def sweep(
+    scenes: Sequence[tuple[str, str]],
+    samplers: Sequence[str],
+    counts: Sequence[int],
+    *,
+    realizations: int = REALIZATIONS,
+    seed: int = 0,
+    show: Callable[[Cell], None] = lambda _: None,
+    progress: Callable[[int, int], None] = lambda _, __: None,
+) -> list[Cell]:
+    """Measure and judge every cell.
+
+    Parameters
+    ----------
+    scenes
+        From :func:`scenes_of`.
+    samplers, counts
+        What is swept.
+    realizations
+        Independent estimates of each cell.
+    seed
+        From 0 to 2^64 - 1.
+    show
+        Called with each cell when it is done.
+    progress
+        Called with the numbers of samples done and to do.
+    """
+    configured = [configured_sampler(text) for text in samplers]
+    total, done = len(scenes) * len(samplers) * sum(counts) * realizations, 0
+    cells = []
+    edges = np.array([0.0, 1.0])
+    for name, extreme in scenes:
+        scene = configured_scene(f"{name}:{extreme}" if extreme else name)
+        reference = scene.reference(edges, edges)
+        for sampler in configured:
+            for count in counts:
+                cell = _cell(scene, sampler, count, realizations, seed, reference)
+                cells.append(replace(cell, name=name, extreme=extreme))
+                show(cells[-1])
+                done += count * realizations
+                progress(done, total)
+    return cells
+
+
+def _cell(
+    scene: ConfiguredScene,
+    sampler: ConfiguredSampler,
+    count: int,
+    realizations: int,
+    seed: int,
+    reference: Reference,
+) -> Cell:
+    def judged(at: int) -> tuple[Measured, Verdict]:
+        measured = measure(scene, sampler, count, realizations=realizations, seed=at, reference=reference)
+        return measured, judge(measured, randomized=sampler.spec.randomized, finite_variance=scene.finite_variance)
+
+    try:
+        measured, verdict = judged(seed)
+        repeated = verdict.kind == "wrong"
+        if repeated:
+            measured, verdict = judged(seed ^ (LARGEST_SEED >> 1))
+    except UsageError as error:
+        return Cell("", "", sampler.text, count, None, Verdict("refused", str(error)))
+    return Cell("", "", sampler.text, count, measured, verdict, repeated)
+
+
+def precision_lost_beyond(cells: Sequence[Cell]) -> dict[tuple[str, str, str], int]:
+    """The largest count before rounding exceeds the error of sampling, by name, extreme and sampler; 0: none is."""
+    rows: dict[tuple[str, str, str], list[Cell]] = {}
+    for cell in cells:
+        rows.setdefault((cell.name, cell.extreme, cell.sampler), []).append(cell)
+    beyond = {}
+    for row, of_row in rows.items():
+        lost = [cell.count for cell in of_row if cell.verdict.kind == "precision lost"]
+        if lost:
+            beyond[row] = max((cell.count for cell in of_row if cell.count < min(lost)), default=0)
+    return beyond

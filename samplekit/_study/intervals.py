@@ -1,0 +1,134 @@
+"""Confidence intervals over independent trials, for means of numbers that may be heavily skewed.
+
+The squared error of one estimate is such a number: of an error that is normal its relative variance is 2, of others it
+is more, and now and then one trial in a hundred holds most of the mean. An interval by Student's t covers far too
+seldom then. What is taken instead, at 95 %, is the wider at either end of
+
+- Hall's transformation of t, which undoes the skewness that is seen (Hall 1992, "On the removal of skewness by
+  transformation", J. R. Stat. Soc. B 54(1)); and
+- the interval of a multiple of chi-square with as many degrees of freedom as its variance says (Satterthwaite 1946),
+  that variance raised for small samples, which tend to miss the rare large values; for many pixels, whose mean square
+  is nearly normal, Student's t of the logarithm.
+
+Both together cover in 90 to 99 % of studies from 10 trials on where errors are near normal, and from about 60 where one
+trial in ten is four times as far off as the rest.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.special import chdtri, stdtrit
+
+from samplekit._study.results import LEVEL, Interval
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+_TAIL = (1.0 - LEVEL) / 2.0
+_NORMAL = 2.0
+"""Relative variance of the square of a normal number with mean 0."""
+_FEW = 5
+"""Numbers below which their own skewness says nothing."""
+_WORTH = 10.0
+"""Trials that this expectation counts for, where fewer are seen to vary less."""
+
+
+@lru_cache(1024)
+def student(dof: float) -> float:
+    """The quantile of Student's t that 95 % lie within."""
+    return float(stdtrit(max(dof, 1e-3), 1.0 - _TAIL))
+
+
+def mean_interval(sums: Array, sizes: Array) -> Interval:
+    """The mean of numbers near normal, by Student's t.
+
+    Parameters
+    ----------
+    sums, sizes
+        float64[B]: the sums over batches of independent numbers, and how many each has.
+    """
+    mean, error = _mean_and_error(sums, sizes)
+    if mean is None or error is None:
+        return Interval(mean)
+    half = student(_batches(sizes) - 1) * error
+    return Interval(mean, mean - half, mean + half)
+
+
+def positive_interval(sums: Array, sizes: Array, *, one_pixel: bool) -> Interval:
+    """The mean of numbers that are not negative and may be skewed: squared errors; see the module.
+
+    Parameters
+    ----------
+    sums, sizes
+        As for :func:`mean_interval`.
+    one_pixel
+        The numbers are squares of single errors; else means of many.
+    """
+    mean, error = _mean_and_error(sums, sizes)
+    if mean is None or error is None:
+        return Interval(mean)
+    if mean <= 0.0:
+        # All 0: no trial says how far the next may be off.
+        return Interval(mean)
+    batches = _batches(sizes)
+    relative = batches * (error / mean) ** 2
+    if one_pixel:
+        low, high = _by_chi_square(relative, batches, float(sizes.sum()) / batches)
+    else:
+        reach = student(batches - 1) * math.sqrt(relative / batches)
+        low, high = math.exp(-min(reach, 700.0)), math.exp(min(reach, 700.0))
+    if batches < _FEW:
+        return Interval(mean, mean * low, mean * high)
+    skew_low, skew_high = _by_hall(sums, sizes, mean, error)
+    return Interval(mean, min(mean * low, max(skew_low, 0.0)), max(mean * high, skew_high))
+
+
+def _by_chi_square(relative: float, batches: int, per_batch: float) -> tuple[float, float]:
+    """The factors of the interval, for a mean of ``batches`` numbers with this relative variance."""
+    expected = (relative * batches + _WORTH * _NORMAL / per_batch) / (batches + _WORTH)
+    missed = (batches + 4) / (batches - 2) if batches >= _FEW else 1.0
+    raised = max(relative * missed, expected)
+    dof = 2.0 * batches / raised
+    return dof / float(chdtri(dof, _TAIL)), dof / max(float(chdtri(dof, 1.0 - _TAIL)), 1e-300)
+
+
+def _by_hall(sums: Array, sizes: Array, mean: float, error: float) -> tuple[float, float]:
+    batches = _batches(sizes)
+    deviations = (sums - sizes * mean)[sizes > 0]
+    spread = math.sqrt(float(np.mean(deviations**2)))
+    skewness = float(np.mean((deviations / spread) ** 3)) / math.sqrt(batches) if spread > 0.0 else 0.0
+    reach = student(batches - 1)
+    if abs(skewness) < 1e-6:
+        return mean - reach * error, mean + reach * error
+
+    def inverse(t: float) -> float:
+        return 3.0 / skewness * (float(np.cbrt(1.0 + skewness * (t - skewness / 6.0))) - 1.0)
+
+    return mean - error * inverse(reach), mean - error * inverse(-reach)
+
+
+def _batches(sizes: Array) -> int:
+    return int(np.count_nonzero(sizes))
+
+
+def _mean_and_error(sums: Array, sizes: Array) -> tuple[float | None, float | None]:
+    """The mean and its standard error; None of nothing, and where a single batch tells no variance."""
+    total = float(sizes.sum())
+    if total == 0.0:
+        return None, None
+    mean = float(np.sum(sums)) / total
+    if not math.isfinite(mean):
+        return None, None
+    batches = _batches(sizes)
+    if batches < 2:
+        return mean, None
+    # Batches may differ in size: the error of a ratio of sums (Cochran 1977, "Sampling Techniques", 6.3).
+    deviations = sums - sizes * mean
+    error = math.sqrt(batches / (batches - 1) * float(np.sum(deviations * deviations))) / total
+    return mean, error if math.isfinite(error) else None

@@ -1,8 +1,0 @@
-"""The suite as tests: ``pytest --pyargs samplekit.conformance --sampler NAME``; without a name they are skipped."""
-
-from collections.abc import Callable
-
-
-def test_conformance(samplekit_case: Callable[[], None]) -> None:
-    """One check of what the command names."""
-    samplekit_case()

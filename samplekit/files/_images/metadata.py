@@ -1,0 +1,51 @@
+"""How an image was made, as one JSON string: the only form that EXR and PNG both keep unchanged."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any
+
+from samplekit._errors import SamplekitError
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+KEY = "samplekit"
+"""Name of the string attribute that holds the JSON."""
+
+
+def encode(metadata: Mapping[str, Any]) -> str:
+    """Return the same text for the same metadata: keys in order, ASCII.
+
+    Raises
+    ------
+    SamplekitError
+        Something that JSON cannot hold, NaN and infinity among it.
+    """
+    try:
+        return json.dumps(dict(metadata), sort_keys=True, allow_nan=False)
+    except (TypeError, ValueError) as error:
+        raise SamplekitError(f"the metadata cannot be stored as JSON: {error}") from error
+
+
+def _refuse(constant: str) -> None:
+    raise ValueError(f"{constant} is no JSON")
+
+
+def decode(text: str) -> dict[str, Any]:
+    """Return the metadata in the text of an attribute.
+
+    Raises
+    ------
+    SamplekitError
+        No JSON object.
+    """
+    try:
+        metadata = json.loads(text, parse_constant=_refuse)
+        # Half a character, which JSON can write and no terminal can show, ends here as well.
+        json.dumps(metadata, ensure_ascii=False).encode()
+    except (ValueError, RecursionError) as error:
+        raise SamplekitError(f"its metadata is damaged: {error}") from None
+    if not isinstance(metadata, dict):
+        raise SamplekitError("its metadata is damaged: it is no JSON object")
+    return metadata

@@ -1,0 +1,118 @@
+"""Eight-bit PNG: linear values encoded as sRGB for the eye, with how they were made in a text chunk ``samplekit``."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from samplekit._errors import SamplekitError, UsageError
+from samplekit.files._images import metadata as metadata_
+from samplekit.files._images import reading
+from samplekit.files._images.library import file_name, oiio, one_line
+from samplekit.files._writing import Writer, write_group
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from pathlib import Path
+
+    from numpy.typing import ArrayLike, NDArray
+
+RESERVED = (255, 0, 255)
+"""Colour of pixels that are NaN or infinite: no grey and no error has it."""
+
+
+def encode_srgb(array: ArrayLike) -> NDArray[np.uint8]:
+    """Linear values as sRGB of eight bits (IEC 61966-2-1), clamped to [0, 1] and rounded to nearest.
+
+    Parameters
+    ----------
+    array
+        float64[h, w], shown as grey, or float64[h, w, 3] with Rec. 709 primaries.
+
+    Returns
+    -------
+    uint8[h, w, 3]
+        Pixels with a NaN or an infinity in any channel have the colour `RESERVED`.
+
+    Raises
+    ------
+    UsageError
+        Another shape, or no pixels.
+    """
+    linear = np.asarray(array, np.float64)
+    if not (linear.ndim == 2 or (linear.ndim == 3 and linear.shape[2] == 3)) or linear.size == 0:
+        raise UsageError(f"an image must have shape [h, w] or [h, w, 3], not {list(linear.shape)}")
+    finite = np.isfinite(linear)
+    linear = np.clip(np.where(finite, linear, 0.0), 0.0, 1.0)
+    encoded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+    levels = np.floor(255.0 * encoded + 0.5).astype(np.uint8)
+    if levels.ndim == 2:
+        levels, finite = np.repeat(levels[:, :, None], 3, axis=2), finite[:, :, None]
+    levels[~finite.all(axis=2)] = RESERVED
+    return levels
+
+
+def write_png(path: Path, pixels: NDArray[np.uint8], metadata: Mapping[str, Any]) -> None:
+    """Write uint8[h, w, 3], already encoded as sRGB, as a PNG file, or leave what was there.
+
+    Raises
+    ------
+    UsageError
+        Pixels of another shape or type; a path that cannot be written to.
+    SamplekitError
+        Metadata that is no JSON; the writing failed.
+    """
+    write_group([(path, png_writer(pixels, metadata))])
+
+
+def png_writer(pixels: NDArray[np.uint8], metadata: Mapping[str, Any]) -> Writer:
+    """Make a writer for `samplekit.files._writing.write_group`, with the parameters and errors of `write_png`.
+
+    The input is checked here, before anything is written.
+    """
+    if pixels.dtype != np.uint8 or pixels.ndim != 3 or pixels.shape[2] != 3 or pixels.size == 0:
+        raise UsageError(f"PNG needs uint8[h, w, 3], not {pixels.dtype}{list(pixels.shape)}")
+    pixels = np.ascontiguousarray(pixels)
+    text = metadata_.encode(metadata)
+    spec = oiio.ImageSpec(pixels.shape[1], pixels.shape[0], 3, oiio.UINT8)
+    oiio.set_colorspace(spec, "srgb_rec709_scene")
+    spec.attribute(metadata_.KEY, text)
+    # The default level takes five times as long for a tenth of the size.
+    spec.attribute("png:compressionLevel", 2)
+
+    def write(temporary: Path) -> None:
+        output = oiio.ImageOutput.create("png")
+        if output is None:
+            raise SamplekitError(one_line())
+        try:
+            # After a failed open, writing would end the process.
+            good = output.open(file_name(temporary), spec) and output.write_image(pixels)
+        finally:
+            closed = output.close()  # always: an open file cannot be removed everywhere
+        error = output.geterror()  # on a full disk every call has said True, and this alone tells
+        if error or not (good and closed):
+            raise SamplekitError(one_line(error))
+        stored, metadata = read_png(temporary)
+        if not np.array_equal(stored, pixels) or metadata_.encode(metadata) != text:
+            raise SamplekitError("what was read back is not what was written")
+
+    return write
+
+
+def read_png(path: Path) -> tuple[NDArray[np.uint8], dict[str, Any]]:
+    """Read the pixels uint8[h, w, 3] and the metadata of a PNG file that samplekit wrote.
+
+    Raises
+    ------
+    UsageError
+        No such file, or one that samplekit did not write.
+    SamplekitError
+        The file is damaged.
+    """
+    with reading.opened(path) as file:
+        if file.format_name() != "png":
+            raise UsageError(f"it is a {file.format_name()} file, not PNG")
+        spec = file.spec()
+        metadata = reading.metadata(spec)
+        return reading.pixels(file, 0, spec, oiio.UINT8), metadata

@@ -1,0 +1,155 @@
+"""Writing files so that each is there whole or not at all.
+
+Every file is written beside its target under another name, verified by its writer, and takes the target's name only
+then. A full disk, a wrong path, an interrupt or a kill leaves the old file or none, never half of a new one.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import os
+import secrets
+import shutil
+import stat
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from samplekit._errors import SamplekitError, UsageError
+
+Writer = Callable[[Path], None]
+"""Writes a file under the name it is given, reads it back, and raises `SamplekitError` if that is not the same."""
+
+_FULL = 64 * 1024
+"""Bytes free below which a failure is put down to a full disk: image libraries do not say why they failed."""
+
+
+def write_group(items: Sequence[tuple[Path, Writer]]) -> None:
+    """Write several files: all of them exist and are verified before the first takes its name.
+
+    Symbolic links are followed. The files get the permissions of any new file. Should a rename itself fail, half way
+    through the group, the message says which of the files are new.
+
+    Parameters
+    ----------
+    items
+        The path of each file and its writer, called once with a temporary path in the same folder and with the same
+        ending.
+
+    Raises
+    ------
+    UsageError
+        A path that cannot be written to: no such folder, a folder, a device, a write-protected file, one path twice.
+    SamplekitError
+        The writing failed; every path holds what it held before.
+    """
+    targets = check_targets([path for path, _ in items])
+    temporaries: list[Path] = []
+    try:
+        for target, (path, writer) in zip(targets, items, strict=True):
+            temporary = _temporary(target)
+            temporaries.append(temporary)
+            _write(temporary, path, writer)
+        _rename(temporaries, targets, [path for path, _ in items])
+    finally:
+        for temporary in temporaries:
+            with contextlib.suppress(OSError):
+                temporary.unlink(missing_ok=True)
+
+
+def check_targets(paths: Sequence[Path]) -> list[Path]:
+    """Find the files behind the paths, symbolic links followed, and check that they can be written. Writes nothing.
+
+    Raises
+    ------
+    UsageError
+        A path that cannot be written to, as in `write_group`.
+    """
+    targets = [_target(path) for path in paths]
+    for index, target in enumerate(targets):
+        if target in targets[:index]:
+            raise UsageError(f"cannot write {shown(paths[index])} twice in one go")
+    return targets
+
+
+def shown(path: Path) -> str:
+    """Return the path as it appears in a message: always on one line, and printable."""
+    text = str(path)
+    return text if text.isprintable() else repr(text)
+
+
+def _target(path: Path) -> Path:
+    """Find the file behind the path, and check it before any work is done."""
+    try:
+        target = Path(os.path.realpath(path))
+        folder = target.parent
+        if not folder.is_dir():
+            what = "is not a folder" if folder.exists() else "does not exist"
+            raise UsageError(f"cannot write {shown(path)}: {shown(path.parent)} {what}")
+        if not os.access(folder, os.W_OK):
+            raise UsageError(f"cannot write {shown(path)}: the folder {shown(path.parent)} is write-protected")
+        try:
+            mode = target.stat().st_mode
+        except FileNotFoundError:
+            return target
+    except (OSError, ValueError) as error:
+        raise UsageError(f"cannot write {shown(path)}: {_reason(error)}") from None
+    if stat.S_ISDIR(mode):
+        raise UsageError(f"cannot write {shown(path)}: it is a folder")
+    if not stat.S_ISREG(mode):
+        # Renaming onto a device would replace the device.
+        raise UsageError(f"cannot write {shown(path)}: it is not a regular file")
+    if not os.access(target, os.W_OK):
+        # Renaming asks for the folder's permission only, and would walk over the file's.
+        raise UsageError(f"cannot write {shown(path)}: it is write-protected")
+    return target
+
+
+def _temporary(target: Path) -> Path:
+    # A name of its own length: the target's may already be as long as the file system allows.
+    ending = target.suffix if target.suffix.isascii() and len(target.suffix) <= 16 else ""
+    return target.with_name(f".samplekit-{secrets.token_hex(8)}{ending}")
+
+
+def _write(temporary: Path, path: Path, writer: Writer) -> None:
+    try:
+        # Created here, with the mode that the user's umask leaves; the libraries then write into it.
+        os.close(os.open(temporary, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
+        writer(temporary)
+        _flush(temporary)
+    except (OSError, SamplekitError) as error:
+        reason = _reason(error).replace(str(temporary), path.name)
+        if isinstance(error, SamplekitError) and _is_full(temporary.parent):
+            reason = f"no space left on the disk ({reason})"
+        raise SamplekitError(f"cannot write {shown(path)}: {reason}") from None
+
+
+def _flush(temporary: Path) -> None:
+    """Have the system put the file on the disk: some report a full one only then."""
+    with temporary.open("r+b") as file:
+        try:
+            os.fsync(file.fileno())
+        except OSError as error:
+            if error.errno not in (errno.EINVAL, errno.ENOTSUP):  # file systems without fsync
+                raise
+
+
+def _rename(temporaries: Sequence[Path], targets: Sequence[Path], paths: Sequence[Path]) -> None:
+    for index, (temporary, target) in enumerate(zip(temporaries, targets, strict=True)):
+        try:
+            temporary.replace(target)
+        except OSError as error:
+            new = "; new already: " + ", ".join(shown(path) for path in paths[:index]) if index else ""
+            raise SamplekitError(f"cannot write {shown(paths[index])}: {_reason(error)}{new}") from None
+
+
+def _reason(error: Exception) -> str:
+    text = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+    return " ".join(text.split())
+
+
+def _is_full(folder: Path) -> bool:
+    try:
+        return shutil.disk_usage(folder).free < _FULL
+    except OSError:
+        return False

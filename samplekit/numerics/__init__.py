@@ -1,1 +1,0 @@
-"""Arithmetic that samplers, scenes and references share: kernels, sums, elementary functions, double-double."""

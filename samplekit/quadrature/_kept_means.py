@@ -1,0 +1,76 @@
+"""Means over pixels that took long are kept: see :mod:`samplekit.files._cache`."""
+
+from __future__ import annotations
+
+import hashlib
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from samplekit.quadrature import _pixel_means as adaptive
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+_QUICK = 2**13
+"""Pixels that take less than a second."""
+
+
+def kept_means(
+    parameters: str,
+    sources: Sequence[str],
+    function: adaptive.Function,
+    x_edges: Array,
+    y_edges: Array,
+    *,
+    known: Array,
+    curves: adaptive.Curves,
+    largest: float,
+    orders: tuple[int, int] = (3, 5),
+    tolerance: float = 1e-6,
+) -> Array:
+    """As :func:`samplekit.quadrature._pixel_means.pixel_means`, from the cache if they are there and many.
+
+    Parameters
+    ----------
+    parameters, sources
+        All that the function depends on: what it was set up with, and the files that hold its code. The first file's
+        name is part of the kept file's.
+    function, x_edges, y_edges, known, curves, largest, orders, tolerance
+        As there.
+    """
+
+    def make() -> Array:
+        return adaptive.pixel_means(
+            function,
+            x_edges,
+            y_edges,
+            known=known,
+            curves=curves,
+            largest=largest,
+            orders=orders,
+            tolerance=tolerance,
+        )[0]
+
+    if np.count_nonzero(np.isnan(known)) <= _QUICK:
+        return make()
+    from samplekit.files._cache import cached_array
+
+    digest = hashlib.sha256(f"{parameters} {largest} {orders} {tolerance}".encode())
+    for array in (x_edges, y_edges, known):
+        digest.update(str(array.shape).encode() + array.tobytes())
+    package = Path(adaptive.__file__).parent.parent
+    files = [Path(adaptive.__file__), package / "quadrature" / "_pieces.py", *map(Path, sources)]
+    for path in [*files, *sorted((package / "kernels").glob("*.py"))]:
+        digest.update(path.read_bytes())
+    return cached_array(
+        Path(sources[0]).stem.replace("_", "-"),
+        digest.hexdigest(),
+        make,
+        lambda kept: kept.shape == known.shape and kept.dtype == np.float64,
+    )

@@ -1,0 +1,9 @@
+from ._cases import SamplerConformance as SamplerConformance
+from ._cases import SceneConformance as SceneConformance
+from ._result import CheckFailed as CheckFailed
+from ._result import CounterExample as CounterExample
+from ._result import NotApplicable as NotApplicable
+from ._result import Outcome as Outcome
+from ._result import check as check
+from ._suite import check_sampler as check_sampler
+from ._suite import check_scene as check_scene

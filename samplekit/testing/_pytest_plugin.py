@@ -1,0 +1,87 @@
+"""The pytest plugin: ``pytest --pyargs samplekit.testing --sampler NAME``, and classes in test files.
+
+It is imported in every run of pytest in its environment: its top level imports pytest alone.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+_CASES = pytest.StashKey[list[Any]]()
+FIXTURE = "samplekit_case"
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Options that name what is judged."""
+    group = parser.getgroup("samplekit", "conformance of samplers and scenes")
+    group.addoption(
+        "--sampler",
+        action="append",
+        default=[],
+        metavar="NAME",
+        help="judge this sampler, such as halton+owen (may be repeated)",
+    )
+    group.addoption(
+        "--scene", action="append", default=[], metavar="NAME", help="judge this scene, such as disk:radius=0.4"
+    )
+    group.addoption("--samplekit-quick", action="store_true", help="smaller samples, no other processes: seconds")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Find what is judged: a wrong name is one line, before any test is collected."""
+    samplers, scenes = config.getoption("--sampler"), config.getoption("--scene")
+    config.stash[_CASES] = []
+    if not samplers and not scenes:
+        return
+    from samplekit._errors import SamplekitError
+    from samplekit.testing._cases import Subjects, cases_of
+
+    subjects = Subjects(quick=config.getoption("--samplekit-quick"))
+    try:
+        for kind, names in (("sampler", samplers), ("scene", scenes)):
+            for name in dict.fromkeys(names):
+                config.stash[_CASES] += cases_of(kind, name, subjects)  # type: ignore[arg-type]
+    except SamplekitError as error:
+        raise pytest.UsageError(str(error)) from None
+
+
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    """Make a test of each check: of the samplers that the command names, or of those that a class declares."""
+    if FIXTURE not in metafunc.fixturenames:
+        return
+    if metafunc.cls is not None and hasattr(metafunc.cls, "cases"):
+        # An error here is the author's: in a declaration, or in specs().
+        cases = metafunc.cls().cases()
+    else:
+        cases = metafunc.config.stash[_CASES]
+    nothing = pytest.param(None, marks=pytest.mark.skip(reason="say what is judged: --sampler NAME or --scene NAME"))
+    metafunc.parametrize(FIXTURE, [_parameter(case) for case in cases] or [nothing], indirect=True)
+
+
+def _parameter(case: Any) -> Any:
+    marks = [pytest.mark.xfail(reason=case.expected, strict=True)] if case.expected else []
+    return pytest.param(case, id=case.id, marks=marks)
+
+
+@pytest.fixture
+def samplekit_case(request: pytest.FixtureRequest) -> Any:
+    """A check of a sampler or scene: calling it passes, fails with a counter-example, or is skipped with a reason."""
+    case = request.param
+
+    def run() -> None:
+        # Lines of samplekit's own code say nothing to the author of a sampler.
+        __tracebackhide__ = True
+        from samplekit.testing._result import CheckFailed, NotApplicable
+
+        try:
+            case()
+        except NotApplicable as nothing:
+            # A check that is declared to fail and has nothing to judge did not fail: strict, as everywhere.
+            if not case.expected:
+                pytest.skip(str(nothing))
+        except CheckFailed as failed:
+            pytest.fail(str(failed), pytrace=False)
+
+    return run

@@ -1,0 +1,8 @@
+"""The suite as tests: ``pytest --pyargs samplekit.testing --sampler NAME``; without a name they are skipped."""
+
+from collections.abc import Callable
+
+
+def test_conformance(samplekit_case: Callable[[], None]) -> None:
+    """One check of what the command names."""
+    samplekit_case()

@@ -1,0 +1,118 @@
+import numpy as np
+import pytest
+
+import samplekit
+from samplekit import Realizations, UsageError
+from samplekit._bases.realizations import LARGEST_COORDINATE, seed_word
+
+SEEDS = [0, 1, 2, 2**32, 2**63, 2**64 - 1]
+
+
+def image_keys(width, height, seed, left=0, top=0):
+    y, x = np.mgrid[top : top + height, left : left + width]
+    return Realizations.of_pixels(x.ravel(), y.ravel(), seed).keys
+
+
+def test_keys_are_distinct_over_an_image_and_over_seeds():
+    """Three images of 2^18 keys: a chance coincidence among 64-bit words has probability 2e-8."""
+    keys = np.concatenate([image_keys(512, 512, seed) for seed in (0, 1, 2**64 - 1)])
+    assert np.unique(keys).size == 3 * 512 * 512
+
+
+def test_seeds_have_words_of_their_own():
+    words = {int(seed_word(seed)) for seed in [*range(10000), *(2**63 + k for k in range(100)), *SEEDS]}
+    assert len(words) == 10000 + 100 + 2
+
+
+def test_a_trial_is_a_pixel_of_the_first_row():
+    trials = Realizations.of_trials(3, 11, 5)
+    pixels = Realizations.of_pixels(np.arange(3, 11), np.zeros(8, np.int64), 5)
+    assert np.array_equal(trials.keys, pixels.keys)
+    assert trials.x.tolist() == list(range(3, 11))
+    assert not trials.y.any()
+    assert len(trials) == 8
+
+
+def test_the_points_of_a_trial_are_those_of_the_pixel():
+    out = np.empty((2, 2, 9))
+    samplekit.sampler("random").fill(out, Realizations.of_pixels(np.array([6, 1]), np.array([0, 0]), 8), 9, 0)
+    points = samplekit.points("random", 9, realizations=7, seed=8)
+    assert np.array_equal(out.transpose(0, 2, 1), points[[6, 1]])
+
+
+def test_extreme_coordinates_have_keys_of_their_own():
+    values = [0, 1, 2**16 - 1, 2**16, 2**16 + 1, 2**31 - 1, 2**31, 2**32 - 2, 2**32 - 1]
+    x, y = (grid.ravel() for grid in np.meshgrid(values, values))
+    keys = Realizations.of_pixels(x, y, 0).keys
+    assert np.unique(keys).size == keys.size
+    assert LARGEST_COORDINATE == 2**32 - 1
+
+
+@pytest.mark.parametrize("coordinate", [-1, 2**32, -(2**63), 2**63 - 1])
+def test_coordinates_out_of_range_are_errors(coordinate):
+    good, bad = np.array([0]), np.array([coordinate], np.int64)
+    for x, y in ((good, bad), (bad, good)):
+        with pytest.raises(UsageError, match="from 0 to 4294967295"):
+            Realizations.of_pixels(x, y, 0)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_every_seed_gives_points(seed):
+    points = samplekit.points("jittered", 16, realizations=3, seed=seed)
+    assert points.min() >= 0.0
+    assert points.max() < 1.0
+    assert np.array_equal(points, samplekit.points("jittered", 16, realizations=3, seed=np.uint64(seed)))
+
+
+def test_seeds_give_other_points():
+    sets = [samplekit.points("random", 16, seed=seed) for seed in SEEDS]
+    assert np.unique(np.concatenate(sets)).size == 16 * 2 * len(SEEDS)
+
+
+@pytest.mark.parametrize("seed", [-1, 2**64, 1.0, 1.5, "1", None, True, float("nan")])
+def test_bad_seeds_are_errors(seed):
+    for request in (
+        lambda: samplekit.points("random", 4, seed=seed),
+        lambda: samplekit.estimate("disk", "random", 4, seed=seed),
+        lambda: Realizations.of_trials(0, 1, seed),
+    ):
+        with pytest.raises(UsageError, match="expected an integer from 0 to 18446744073709551615"):
+            request()
+
+
+def test_a_slice_is_the_same_realisations():
+    whole = Realizations.of_trials(0, 10, 1)
+    part = whole[3:7]
+    assert np.array_equal(part.keys, whole.keys[3:7])
+    assert part.x.tolist() == [3, 4, 5, 6]
+    assert part.seed == 1
+
+
+def test_random_words_depend_on_key_and_dimension_alone():
+    realizations = Realizations.of_trials(0, 100, 1)
+    words = realizations.random_words(8)
+    assert words.shape == (100, 8)
+    assert words.dtype == np.uint64
+    assert np.unique(words).size == 800
+    assert np.array_equal(realizations.random_words(3), words[:, :3])
+    assert np.array_equal(realizations[40:].random_words(8), words[40:])
+    assert not np.intersect1d(words, Realizations.of_trials(0, 100, 2).random_words(8)).size
+
+
+def test_bits_of_keys_and_words_are_fair():
+    """Each bit over 2^16 pixels, and over 8192 pixels by 8 dimensions: within 5 standard errors (false alarms 7e-5)."""
+    keys = image_keys(256, 256, 3, left=2**31, top=7)
+    words = Realizations.of_trials(0, 8192, 3).random_words(8).ravel()
+    for sample in (keys, words):
+        for bit in range(64):
+            ones = np.count_nonzero(sample >> np.uint64(bit) & np.uint64(1))
+            assert abs(ones / 65536 - 0.5) < 5 * 0.5 / 256
+
+
+def test_every_other_realisation():
+    every, other = np.empty((10, 2, 4)), np.empty((5, 2, 4))
+    realizations = Realizations.of_trials(0, 10, 0)
+    sampler = samplekit.sampler("random")
+    sampler.fill(every, realizations, 4, 0)
+    sampler.fill(other, realizations[::2], 4, 0)
+    assert np.array_equal(every[::2], other)

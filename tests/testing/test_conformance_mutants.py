@@ -1,0 +1,34 @@
+"""The suite is tested with broken samplers: each is caught by the check that should catch it."""
+
+import pytest
+
+from samplekit.testing._mutants import MUTANTS
+from samplekit.testing._mutation import caught, run_mutant, table
+from samplekit.testing._suite import CHECKS
+
+SLOW_CHECKS_NEEDED = {"NaiveJitter", "NaiveDraw", "DependsOnTheProcess", "CannotBePickled", "SmallBias", "BlindSpot"}
+"""Caught with forced random bits, in another process, or by large samples alone; a quick run catches the others."""
+
+
+@pytest.mark.parametrize("mutant", MUTANTS, ids=lambda mutant: mutant.__name__)
+def test_a_mutant_is_caught(mutant):
+    quick = mutant.__name__ not in SLOW_CHECKS_NEEDED
+    outcomes = run_mutant(mutant.__name__, quick=quick, only=[mutant.caught_by])
+    assert caught(mutant, outcomes), outcomes[0]
+    if outcomes[0].status == "failed":
+        assert outcomes[0].message
+        assert not outcomes[0].message.startswith("raised"), outcomes[0].message
+
+
+def test_there_are_enough_and_nearly_every_check_has_one():
+    assert len(MUTANTS) >= 25
+    # What only an installed plugin can do wrong is in test_conformance_command.
+    assert {check.name for check in CHECKS} - {mutant.caught_by for mutant in MUTANTS} == {"light-import"}
+
+
+def test_the_table_has_a_row_a_mutant():
+    mutant = next(each for each in MUTANTS if each.__name__ == "EmptyCell")
+    outcomes = run_mutant("EmptyCell", quick=True)
+    lines = table([(mutant, outcomes)])
+    assert lines[-1].startswith("EmptyCell")
+    assert lines[-1].count("X") == 1

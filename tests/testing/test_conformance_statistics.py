@@ -1,0 +1,79 @@
+"""The statistical checks raise false alarms as rarely as they say, and see what they say they see."""
+
+import math
+
+import numpy as np
+import pytest
+
+from samplekit.testing import _statistics as statistics
+from samplekit.testing._dimensions import pair_correlations
+from samplekit.testing._uniformity import SIDE, cell_counts, integrands
+
+
+def test_the_shares_add_up_to_the_family_rate():
+    assert statistics.family_rate(64) == pytest.approx(1e-3)
+    assert pytest.approx(1e-3) == 64 * statistics.CHECK_RATE * statistics.STATISTICAL_CHECKS
+
+
+def test_thresholds_are_quantiles():
+    # Tails of the normal distribution, of Student's with many degrees, of chi-square with two (the exponential).
+    z = statistics.normal_threshold(10)
+    assert math.erfc(z / math.sqrt(2)) * 10 == pytest.approx(statistics.CHECK_RATE, rel=1e-6)
+    assert statistics.student_threshold(10, 10**7) == pytest.approx(z, rel=1e-4)
+    assert math.exp(-statistics.chi_square_threshold(10, 2) / 2) * 10 == pytest.approx(statistics.CHECK_RATE, rel=1e-6)
+
+
+def test_chi_square_of_uniform_points_has_the_quantiles_it_should():
+    """At a threshold of 1 in 20, so that false alarms can be counted: 400 samples of 58 621 points."""
+    from scipy.special import chdtri
+
+    rng = np.random.default_rng(8)
+    expected = 61.0
+    counts = rng.multinomial(61 * SIDE**2, np.full(SIDE**2, 1 / SIDE**2), size=400)
+    statistic = ((counts - expected) ** 2).sum(axis=1) / expected
+    alarms = int((statistic > chdtri(SIDE**2 - 1, 0.05)).sum())
+    assert 5 <= alarms <= 38  # 20 expected; 4 standard deviations
+
+
+def test_the_density_that_is_seen_is_the_one_that_is_stated():
+    rng = np.random.default_rng(9)
+    weights = 1.0 + 0.07 * rng.choice([-1.0, 1.0], SIDE**2)
+    counts = rng.multinomial(61 * SIDE**2, weights / weights.sum(), size=200)
+    statistic = ((counts - 61.0) ** 2).sum(axis=1) / 61.0
+    assert (statistic > statistics.chi_square_threshold(2, SIDE**2 - 1)).mean() > 0.9
+
+
+def test_cells_are_counted():
+    x, y = np.meshgrid((np.arange(SIDE) + 0.5) / SIDE, (np.arange(SIDE) + 0.5) / SIDE)
+    assert (cell_counts(np.stack([x.ravel(), y.ravel()]), (0, 1)) == 1).all()
+
+
+def test_integrals_are_those_of_the_integrands():
+    """Against the midpoint rule, whose error on 400 x 400 points is below 1e-3 for steps."""
+    x, y = np.meshgrid((np.arange(400) + 0.5) / 400, (np.arange(400) + 0.5) / 400)
+    grid = np.stack([x.ravel(), y.ravel()])[None]
+    for name, function, integral in integrands(2):
+        assert function(grid).mean() == pytest.approx(integral, abs=1.5e-3), name
+
+
+def test_correlations_are_pearsons():
+    rng = np.random.default_rng(3)
+    values = rng.random((2, 3, 50))
+    found = pair_correlations(values)
+    for row in range(2):
+        matrix = np.corrcoef(values[row])
+        assert found[row] == pytest.approx([matrix[0, 1], matrix[0, 2], matrix[1, 2]])
+    values[0, 1] = 0.5
+    assert pair_correlations(values)[0, 0] == 0.0
+
+
+def test_the_bias_and_the_correlation_that_are_seen_are_those_that_are_stated():
+    """Nine times in ten means 1.28 standard deviations beyond the threshold."""
+    beyond = 1.2816
+    bias = (statistics.normal_threshold(25) + beyond) * math.sqrt(1 / 12) / math.sqrt(2**14 * 256)
+    assert bias == pytest.approx(9.3e-4, rel=0.05)
+    neighbours = (statistics.normal_threshold(48) + beyond) / math.sqrt(2**17)
+    assert neighbours <= 0.02
+    # Padded nets have twice the variance of independent points.
+    dimensions = (statistics.normal_threshold(56) + beyond) * math.sqrt(2 / (64 * 4095))
+    assert dimensions <= 0.019
