@@ -21,7 +21,7 @@ from core import build, reversed_table
 
 import samplekit
 from samplekit._bases.realizations import Realizations
-from samplekit._integrate.loop import UNIT_SQUARE, Estimator, Seconds
+from samplekit._integrate.loop import integrate, unit_square
 from samplekit._integrate.plan import make_plan
 from samplekit._integrate.rendering import render_plan
 from samplekit._study.trials import seed_of
@@ -50,9 +50,8 @@ def interleaved(runs: dict[str, Callable[[], object]], repeats: int, clock: Call
 
 def pure_square(scene_name: str, sampler: str, count: int, trials: int) -> float:
     scene, source = samplekit.scene(scene_name), samplekit.sampler(sampler)
-    boxes = np.repeat(np.array(UNIT_SQUARE)[:, None], trials, axis=1)
     realizations = Realizations.of_trials(0, trials, 0, scene.blocks)
-    return float(Estimator(scene, source, count).means(realizations, boxes, Seconds()).mean())
+    return float(integrate(scene, source, (count,), realizations, unit_square(trials)).mean())
 
 
 def pure_images(sampler: str, count: int, trials: int, size: tuple[int, int]) -> None:

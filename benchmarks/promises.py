@@ -26,7 +26,7 @@ from samplekit.testing._strata import broken_cell, promised_grids
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from samplekit._chosen.sampler import ConfiguredSampler
+    from samplekit._configured.sampler import ConfiguredSampler
 
 MOST_POINTS = 1 << 14
 BLOCKS = (0, 1, 5)

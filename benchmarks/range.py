@@ -16,7 +16,7 @@ import time
 import numpy as np
 
 from samplekit import Realizations
-from samplekit._chosen.sampler import ConfiguredSampler, configured_sampler
+from samplekit._configured.sampler import ConfiguredSampler, configured_sampler
 from samplekit._registry import registry
 from samplekit._specs.counts import allows, nearest_above
 from samplekit.testing._elsewhere import forced_extremes

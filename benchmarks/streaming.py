@@ -11,8 +11,8 @@ import time
 import numpy as np
 import psutil
 
-from samplekit._chosen.sampler import configured_sampler
-from samplekit._chosen.scene import configured_scene
+from samplekit import sampler as configured_sampler
+from samplekit import scene as configured_scene
 from samplekit._stability.cell import measure
 
 

@@ -32,12 +32,13 @@ def command(plan: Plan, metrics: Collection[str] = ()) -> str:
 
     ``metrics``: the names of those that were computed; some are computed on request alone.
     """
-    words = ["samplekit", "render", "--scene", plan.scene.text, "--sampler", plan.sampler.text]
-    words += ["--spp", str(plan.count), "--size", f"{plan.size[0]}x{plan.size[1]}"]
-    if plan.window != (0, 0, *plan.size):
-        words += ["--crop", ",".join(str(number) for number in plan.window)]
+    pixels = plan.pixels
+    words = ["samplekit", "render", "--scene", pixels.scene.text, "--sampler", plan.sampler.text]
+    words += ["--spp", str(plan.count), "--size", f"{pixels.size[0]}x{pixels.size[1]}"]
+    if pixels.window != (0, 0, *pixels.size):
+        words += ["--crop", ",".join(str(number) for number in pixels.window)]
     words += ["--seed", str(plan.seed)]
-    words += ["--full"] if plan.full else []
+    words += ["--full"] if pixels.full else []
     words += [] if plan.reference else ["--no-error"]
     words += [f"--{name}" for name in ("ssim", "flip") if name in metrics]
     return shlex.join(words)
@@ -45,7 +46,7 @@ def command(plan: Plan, metrics: Collection[str] = ()) -> str:
 
 def describe(rendering: Rendering) -> dict[str, Any]:
     """The provenance of a rendering; the same for the same command, so no times and no paths."""
-    plan = rendering.plan
+    plan, pixels, scene = rendering.plan, rendering.plan.pixels, rendering.plan.pixels.scene
     return {
         "schema": SCHEMA,
         "command": command(plan, rendering.metrics),
@@ -53,14 +54,14 @@ def describe(rendering: Rendering) -> dict[str, Any]:
         "seed": str(plan.seed),
         "sampler": plan.sampler.text,
         "sampler_plugin": str(plan.sampler.plugin),
-        "sampler_notes": plan.sampler.notes(plan.count, plan.scene.dims),
-        "scene": plan.scene.text,
-        "scene_plugin": str(plan.scene.plugin),
-        "scene_notes": plan.scene.notes(),
+        "sampler_notes": plan.sampler.notes(plan.count, scene.dims),
+        "scene": scene.text,
+        "scene_plugin": str(scene.plugin),
+        "scene_notes": scene.notes(),
         "spp": plan.count,
-        "dimensions": dict(plan.scene.needs),
-        "size": list(plan.size),
-        "window": list(plan.window),
+        "dimensions": dict(scene.needs),
+        "size": list(pixels.size),
+        "window": list(pixels.window),
         "reference": rendering.reference_kind,
         "metrics": finite(rendering.metrics),
     }

@@ -1,13 +1,12 @@
-"""Discovery and lookup of what plugins offer; a plugin that fails is reported, and harms nobody else.
+"""Discovery and lookup of what plugins offer. A plugin that fails is reported, and the others work on.
 
-Our own samplers, scenes and randomizers come through the same hooks as strangers', registered first:
-a name of theirs is found without looking at any other plugin, and nobody can take it.
+The built-in samplers, scenes and randomizers come through the same hooks as those of any plugin. They are registered
+first: their names are found without loading any other plugin, and no plugin can take one of their names.
 """
 
 from __future__ import annotations
 
 import contextlib
-import difflib
 import functools
 import os
 import sys
@@ -18,7 +17,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import pluggy
 
 from samplekit import _hooks
-from samplekit._errors import UsageError
+from samplekit._errors import AmbiguousNameError, UnknownNameError
 from samplekit._quoting import quoted, reason
 from samplekit._specs import CommandSpec, RandomizerSpec, SamplerSpec, SceneSpec
 
@@ -42,7 +41,19 @@ _TYPES: dict[Kind, type] = {
 
 @dataclass
 class Plugin:
-    """A plugin as ``samplekit list plugins`` shows it: ``problems`` is empty when all is well."""
+    """An installed plugin, as ``samplekit list plugins`` shows it.
+
+    Attributes
+    ----------
+    name, distribution, version
+        Name of its entry point, and the distribution that it comes with.
+    problems
+        One line for each fault; empty if the plugin works.
+    blocked
+        Whether an environment variable switches the plugin off.
+    offers
+        The names that it offers, by kind.
+    """
 
     name: str
     distribution: str
@@ -51,71 +62,69 @@ class Plugin:
     blocked: bool = False
     offers: dict[str, list[str]] = field(default_factory=dict)
 
+    @property
+    def builtin(self) -> bool:
+        """Whether it comes with samplekit."""
+        return self.name == BUILTIN
+
     def __str__(self) -> str:
         return f"{self.name} ({self.distribution} {self.version})"
 
 
 @dataclass(frozen=True)
-class Offer:
-    """A declaration and the plugin that it comes from."""
+class Registration:
+    """A declaration, the plugin that it comes from, and the name that chooses it: ``NAME`` or ``PLUGIN/NAME``."""
 
     spec: Any
     plugin: Plugin
-    asked_for: str = ""
-
-    @property
-    def called(self) -> str:
-        """The name that chooses it: with the plugin's where it was asked for so."""
-        return self.asked_for or str(self.spec.name)
+    name: str
 
 
 class Registry:
-    """All declarations, by kind and name. Built-in ones are there at once, plugins' when a lookup needs them."""
+    """All declarations by kind and name: built-in ones at once, those of plugins when a lookup needs them."""
 
     def __init__(self) -> None:
         from samplekit import _builtin as builtin
 
         self._manager = pluggy.PluginManager(GROUP)
         self._manager.add_hookspecs(_hooks)
-        self._offers: dict[Kind, dict[str, list[Offer]]] = {kind: {} for kind in _TYPES}
+        self._registered: dict[Kind, dict[str, list[Registration]]] = {kind: {} for kind in _TYPES}
         self.plugins: list[Plugin] = []
         self._discovered = False
         ours = Plugin(BUILTIN, "samplekit-core", _own_version())
         self._add(ours, builtin)
 
-    def find(self, kind: Kind, name: str) -> Offer:
-        """The declaration called ``name``, or ``PLUGIN/NAME`` where two plugins have one of that name.
+    def find(self, kind: Kind, name: str) -> Registration:
+        """Return the declaration called ``name``, or ``PLUGIN/NAME`` where two plugins offer the same name.
 
         Raises
         ------
-        UsageError
-            Unknown (the nearest names, and the plugins that failed to load), or offered by two plugins.
+        UnknownNameError
+            No plugin that works offers the name.
+        AmbiguousNameError
+            Several plugins offer it.
         """
         plugin_name, slash, plain = name.rpartition("/")
-        offers = self._offers[kind].get(plain, [])
-        if not offers or (plugin_name and plugin_name != BUILTIN):
+        if plugin_name not in ("", BUILTIN) or not self._registered[kind].get(plain):
             self.discover()
-            offers = self._offers[kind].get(plain, [])
-        if plugin_name:
-            offers = [offer for offer in offers if offer.plugin.name == plugin_name]
-        if slash and not plugin_name:
-            offers = []
-        if len(offers) == 1:
-            (offer,) = offers
-            return replace(offer, asked_for=name) if plugin_name not in ("", BUILTIN) else offer
-        if offers:
-            both = " and ".join(str(offer.plugin) for offer in offers)
-            choices = " or ".join(f"{offer.plugin.name}/{plain}" for offer in offers)
-            raise UsageError(f"{kind} {plain!r} is offered by {both}: write {choices}")
-        raise UsageError(self._unknown(kind, name))
+        found = self._registered[kind].get(plain, [])
+        if slash:
+            found = [each for each in found if each.plugin.name == plugin_name]
+        if not found:
+            known = [known for known, registrations in self._registered[kind].items() if registrations]
+            raise UnknownNameError(kind, name, known, self._plugin_hints())
+        if len(found) > 1:
+            choices = [f"{each.plugin.name}/{plain}" for each in found]
+            raise AmbiguousNameError(kind, plain, [str(each.plugin) for each in found], choices)
+        return replace(found[0], name=name) if plugin_name not in ("", BUILTIN) else found[0]
 
-    def all(self, kind: Kind) -> dict[str, Offer]:
-        """Every declaration of a kind by the name that chooses it, sorted; ``PLUGIN/NAME`` where a name is shared."""
+    def all(self, kind: Kind) -> dict[str, Registration]:
+        """Return every declaration of a kind by the name that chooses it, sorted."""
         self.discover()
         named = {
-            (name if len(offers) == 1 else f"{offer.plugin.name}/{name}"): offer
-            for name, offers in self._offers[kind].items()
-            for offer in offers
+            (name if len(found) == 1 else f"{each.plugin.name}/{name}"): each
+            for name, found in self._registered[kind].items()
+            for each in found
         }
         return dict(sorted(named.items()))
 
@@ -137,7 +146,7 @@ class Registry:
                 self.plugins.append(plugin)
                 continue
             try:
-                with _printing_apart():
+                with _redirect_output():
                     module = entry.load()
             except (Exception, SystemExit) as error:
                 plugin.problems.append(f"cannot be imported: {reason(error)}")
@@ -169,7 +178,7 @@ class Registry:
 
     def _collect(self, kind: Kind, plugin: Plugin, hook: Any) -> None:
         try:
-            with _printing_apart():
+            with _redirect_output():
                 specs = list(hook())
         except (Exception, SystemExit) as error:
             plugin.problems.append(f"samplekit_{kind}s failed: {reason(error)}")
@@ -181,28 +190,26 @@ class Registry:
             self._accept(kind, plugin, spec)
 
     def _accept(self, kind: Kind, plugin: Plugin, spec: Any) -> None:
-        present = self._offers[kind].setdefault(spec.name, [])
-        if any(offer.plugin.name == BUILTIN for offer in present):
+        present = self._registered[kind].setdefault(spec.name, [])
+        if any(other.plugin.builtin for other in present):
             plugin.problems.append(f"{kind} {spec.name!r}: the name belongs to samplekit's own {kind}")
             return
-        if any(offer.plugin is plugin for offer in present):
+        if any(other.plugin is plugin for other in present):
             plugin.problems.append(f"{kind} {spec.name!r} is declared twice")
             return
-        present.append(Offer(spec, plugin))
+        present.append(Registration(spec, plugin, spec.name))
         plugin.offers.setdefault(kind, []).append(spec.name)
 
-    def _unknown(self, kind: Kind, name: str) -> str:
-        names = [name for name, offers in self._offers[kind].items() if offers]
-        near = difflib.get_close_matches(name, names, n=3, cutoff=0.5)
-        message = f"unknown {kind} {name!r}"
-        message += f": did you mean {' or '.join(near)}?" if near else f": there are {', '.join(sorted(names))}"
+    def _plugin_hints(self) -> str:
+        """Name the plugins that might have offered what is missing, as the end of a message."""
+        hints = ""
         failed = [f"{plugin}: {plugin.problems[0]}" for plugin in self.plugins if plugin.problems]
         if failed:
-            message += f" (plugins with problems: {'; '.join(failed)})"
+            hints += f" (plugins with problems: {'; '.join(failed)})"
         blocked = [plugin.name for plugin in self.plugins if plugin.blocked]
         if blocked:
-            message += f" (plugins switched off by {ALLOW_VARIABLE} or {BLOCK_VARIABLE}: {', '.join(blocked)})"
-        return message
+            hints += f" (plugins switched off by {ALLOW_VARIABLE} or {BLOCK_VARIABLE}: {', '.join(blocked)})"
+        return hints
 
 
 @functools.cache
@@ -211,8 +218,8 @@ def registry() -> Registry:
     return Registry()
 
 
-def _printing_apart() -> contextlib.AbstractContextManager[object]:
-    """What a plugin prints goes to standard error: results go to standard output, and must stand alone there."""
+def _redirect_output() -> contextlib.AbstractContextManager[object]:
+    """Send what a plugin prints to standard error, so that results stand alone on standard output."""
     return contextlib.redirect_stdout(sys.stderr)
 
 

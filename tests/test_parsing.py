@@ -2,8 +2,10 @@
 
 import pytest
 
+from samplekit._checks import check_crop
+from samplekit._choices import Choice, parse_choice
 from samplekit._errors import UsageError
-from samplekit._parsing import Choice, check_crop, parse_choice, parse_count, parse_crop, parse_seed, parse_size
+from samplekit.commands import parse_count, parse_crop, parse_seed, parse_size
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,7 @@
 import pytest
 
 from samplekit._errors import UsageError
-from samplekit._parsing import parse_counts
+from samplekit.commands import parse_counts
 
 
 @pytest.mark.parametrize(

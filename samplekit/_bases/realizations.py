@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from samplekit._checks import LARGEST_SEED
 from samplekit._errors import UsageError
-from samplekit._parsing import LARGEST_SEED
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

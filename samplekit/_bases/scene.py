@@ -1,4 +1,4 @@
-"""The scene: an integrand over the unit square (and lens, time, direction) with its exact mean over a pixel."""
+"""The scene: an integrand over the unit square, and over lens, time and direction, with its exact mean over pixels."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 class Scene:
     """Base of all scenes. Options arrive by keyword, parsed; dashes in their names are underscores here.
 
-    A scene gives either ``value`` (NumPy, the simple door) or ``sums`` (a kernel, the fast door). All else has
-    defaults: without ``exact`` the reference is integrated numerically, and says how far it is to be trusted.
+    A scene defines either ``value``, in NumPy, or ``sums``, a compiled kernel, which is faster. Everything else has
+    defaults: without ``exact`` the reference is integrated numerically, with an estimate of its error.
 
     Attributes
     ----------
@@ -62,7 +62,7 @@ class Scene:
         out
             float64[P], receives the sums.
         """
-        from samplekit.kernels._row_sums import row_sums
+        from samplekit.kernels import row_sums
 
         pixels, dims, count = tile.shape
         points = np.empty((dims, pixels * count))
@@ -75,34 +75,56 @@ class Scene:
             raise ValueError(f"value gave shape {values.shape} for {pixels * count} points")
         row_sums(values.reshape(pixels, count), out)
 
+    def values(self, tile: NDArray[np.float64], boxes: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Evaluate the integrand at each sample.
+
+        Parameters
+        ----------
+        tile, boxes
+            Samples float64[P, D, n] and pixels float64[4, P], as in :meth:`sums`.
+
+        Returns
+        -------
+        float64[P, n]
+        """
+        # Each sample as a pixel of its own: the sum of one value is that value.
+        pixels, dims, count = tile.shape
+        single = np.ascontiguousarray(tile.transpose(0, 2, 1)).reshape(pixels * count, dims, 1)
+        values = np.empty(pixels * count)
+        self.sums(single, np.repeat(boxes, count, axis=1), values)
+        return values.reshape(pixels, count)
+
     def parts(self, tile: NDArray[np.float64], boxes: NDArray[np.float64]) -> Sequence[NDArray[np.float64]]:
-        """Numbers float64[P, n] whose exact sum is the value at each sample before it was rounded.
+        """Return terms float64[P, n] whose exact sum is the value at each sample before it was rounded.
 
-        What a run in extended precision adds up; by default the rounded value itself. ``tile`` and ``boxes`` as in
-        :meth:`sums`.
+        A run in extended precision adds them up. By default the only term is the rounded value itself. ``tile`` and
+        ``boxes`` as in :meth:`sums`.
         """
-        from samplekit._integrate.samples import sample_values
+        return (self.values(tile, boxes),)
 
-        return (sample_values(self, tile, boxes),)
+    def exact(self, x_edges: NDArray[np.float64], y_edges: NDArray[np.float64]) -> NDArray[np.float64] | None:
+        """Return the exact mean over each pixel, or None if there is no closed form.
 
-    def exact(self, x_edges: NDArray[np.float64], y_edges: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The exact mean over each pixel: float64[h, w] for edges float64[w + 1] and float64[h + 1], as stored.
+        Parameters
+        ----------
+        x_edges, y_edges
+            The edges of the pixels as they are stored, float64[w + 1] and float64[h + 1].
 
-        By default adaptive quadrature; see :mod:`samplekit._integrate.numerical`.
+        Returns
+        -------
+        float64[h, w], or None: then adaptive quadrature gives the reference and says how far it can be trusted.
         """
-        from samplekit._integrate.numerical import numerical_means
+        return None
 
-        return numerical_means(self, x_edges, y_edges).image
+    def exact_at(self, x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64] | None:
+        """Return the exact mean over all other dimensions at the points x float64[w] by y float64[h].
 
-    def exact_at(self, x: NDArray[np.float64], y: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The exact mean over all other dimensions at the points x float64[w] by y float64[h]: float64[h, w].
-
-        By default Gauss rules; see :mod:`samplekit._integrate.numerical`.
+        Returns
+        -------
+        float64[h, w], or None: then Gauss rules give the reference.
         """
-        from samplekit._integrate.numerical import numerical_means_at
-
-        return numerical_means_at(self, x, y).image
+        return None
 
     def constant(self, x_edges: NDArray[np.float64], y_edges: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The value of each pixel in which the integrand is provably constant, NaN elsewhere: float64[h, w]."""
+        """Return the value of each pixel in which the integrand is provably constant, NaN elsewhere: float64[h, w]."""
         return np.full((y_edges.size - 1, x_edges.size - 1), np.nan)

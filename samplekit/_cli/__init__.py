@@ -13,11 +13,11 @@ from typing import Annotated, Any, TextIO
 import typer
 
 from samplekit import __version__
+from samplekit._boundary import redirect_plugin_output
 from samplekit._builtin.declarations.commands import COMMANDS
 from samplekit._cli.plugin_commands import PluginGroup
 from samplekit._cli.single_options import SingleOptionsCommand
 from samplekit._errors import SamplekitError, UsageError
-from samplekit._guard import results_alone
 from samplekit.commands import _interrupts as interrupts
 
 DONE, FAILED, WRONG_USE, CHECK_FAILED, INTERRUPTED = 0, 1, 2, 3, 130
@@ -78,7 +78,7 @@ def _nowhere() -> TextIO:
 def run(arguments: list[str]) -> int:
     """Run one command and return its exit status: 0 done, 1 failed, 2 wrong use, 3 a check failed, 130 interrupted."""
     try:
-        with interrupts.remembered(), results_alone():
+        with interrupts.remembered(), redirect_plugin_output():
             result = app(args=arguments, prog_name="samplekit", standalone_mode=False)
         return result if isinstance(result, int) else DONE
     except (UsageError, _TyperUsageError) as error:

@@ -88,8 +88,8 @@ def compare(
     """
     from pathlib import Path
 
-    from samplekit._parsing import parse_count, parse_counts, parse_number, parse_range, parse_seed, parse_size
     from samplekit._study.manner import Manner
+    from samplekit.commands import parse_count, parse_counts, parse_number, parse_range, parse_seed, parse_size
 
     counts, trial_count, width_height = parse_counts(spp, "spp"), parse_count(trials, "trials"), parse_size(size)
     start = parse_seed(seed)

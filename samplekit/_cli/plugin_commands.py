@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Any
 import typer
 from typer.core import TyperGroup
 
+from samplekit._boundary import Boundary
 from samplekit._cli.panels import arranged
 from samplekit._cli.single_options import SingleOptionsCommand
-from samplekit._errors import SamplekitError, UsageError
-from samplekit._guard import Guard
+from samplekit._errors import SamplekitError, UnknownNameError, UsageError
 from samplekit._quoting import quoted, reason
 
 if TYPE_CHECKING:
-    from samplekit._registry import Offer
+    from samplekit._registry import Registration
 
 OFFICIAL = {"spectrum": "samplekit-spectrum", "predict": "samplekit-spectrum"}
 """Commands of our own plugins, by the distribution that they come with: who misses one is told where it is."""
@@ -55,27 +55,29 @@ class PluginGroup(TyperGroup):
         from samplekit._registry import registry
 
         try:
-            offer = registry().find("command", cmd_name)
+            registration = registry().find("command", cmd_name)
         except UsageError as error:
             if ctx.resilient_parsing:
                 # Completion of what cannot be: there is nothing to complete.
                 return None
-            raise UsageError(_unknown(cmd_name, super().list_commands(ctx), str(error))) from None
+            if isinstance(error, UnknownNameError):
+                raise _unknown(error, super().list_commands(ctx)) from None
+            raise
         if not ctx.meta.get(_CHOSEN):
             # Help needs the declaration alone.
-            return typer.main.get_command(_described(offer.called, offer.spec.summary))
+            return typer.main.get_command(_described(registration.name, registration.spec.summary))
         try:
-            return _made(offer)
+            return _made(registration)
         except SamplekitError:
             if ctx.resilient_parsing:
                 return None
             raise
 
 
-def _made(offer: Offer) -> Any:
+def _made(registration: Registration) -> Any:
     """The command of a plugin, whose faults name it."""
-    guard = Guard(f"command {offer.called}", offer.plugin)
-    run = guard("cannot be set up", offer.spec.load, callable, "a function")
+    boundary = Boundary(f"command {registration.name}", registration.plugin)
+    run = boundary.call("cannot be set up", registration.spec.load, callable, "a function")
 
     @functools.wraps(run)
     def guarded(*arguments: Any, **options: Any) -> Any:
@@ -86,16 +88,18 @@ def _made(offer: Offer) -> Any:
         except Exception as error:
             if os.environ.get("SAMPLEKIT_TRACEBACK"):
                 raise
-            raise guard.blame(f"failed: {reason(error)}") from error
+            raise boundary.error(f"failed: {reason(error)}") from error
         if isinstance(status, int) and not (isinstance(status, bool) or 0 <= status <= _LARGEST_STATUS):
-            raise guard.blame(
+            raise boundary.error(
                 f"returned {quoted(status)}: expected an exit status from 0 to {_LARGEST_STATUS}, or None"
             )
         return None if isinstance(status, bool) else status
 
     single = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
-    single.command(offer.called, help=_plain(run.__doc__ or offer.spec.summary), cls=SingleOptionsCommand)(guarded)
-    return guard("cannot be set up", lambda: typer.main.get_command(single))
+    single.command(registration.name, help=_plain(run.__doc__ or registration.spec.summary), cls=SingleOptionsCommand)(
+        guarded
+    )
+    return boundary.call("cannot be set up", lambda: typer.main.get_command(single))
 
 
 def _plain(summary: str) -> str:
@@ -112,20 +116,13 @@ def _described(name: str, summary: str) -> typer.Typer:
     return app
 
 
-def _unknown(name: str, own: list[str], said: str) -> str:
-    import difflib
-
-    _, _, plugins = said.partition(" (plugins ")
-    plugins = f" (plugins {plugins}" if plugins else ""
+def _unknown(error: UnknownNameError, own: list[str]) -> UsageError:
+    """Return the error for a name that no command has, built-in ones included."""
+    name = error.name
     if name in OFFICIAL:
         where = f"{OFFICIAL[name]} (plugins/{OFFICIAL[name].removeprefix('samplekit-')} in samplekit's sources)"
-        return f"the command {name!r} comes with the plugin {where}, which is not installed or did not load{plugins}"
-    if "is offered by" in said:
-        return said
-    from samplekit._registry import registry
-
-    others = [other for other in registry().all("command") if other not in own]
-    near = difflib.get_close_matches(name, [*own, *others], n=1, cutoff=0.5)
-    if near:
-        return f"unknown command {name!r}: did you mean {near[0]}?"
-    return f"unknown command {name!r}: there are {', '.join([*own, *others])}{plugins}"
+        return UsageError(
+            f"the command {name!r} comes with the plugin {where}, which is not installed or did not load"
+            f"{error.plugin_hints}"
+        )
+    return UnknownNameError("command", name, {*own, *error.known}, error.plugin_hints)

@@ -9,7 +9,7 @@ import typer
 from samplekit.commands._options import JsonOption, SamplerOption, SeedOption
 
 if TYPE_CHECKING:
-    from samplekit._chosen.sampler import ConfiguredSampler
+    from samplekit._configured.sampler import ConfiguredSampler
 
 SCHEMA = "samplekit.points/1"
 
@@ -43,7 +43,7 @@ def points(
     from pathlib import Path
 
     from samplekit._memory import check_memory
-    from samplekit._parsing import parse_count, parse_seed
+    from samplekit.commands import parse_count, parse_seed
     from samplekit.commands._notices import announce_compilation
     from samplekit.commands._progress import Progress
     from samplekit.files._pointsets.write import check_path, title_of, write_points
@@ -53,7 +53,7 @@ def points(
         check_path(path, realizations, dims)
     number, start = parse_count(count, "count"), parse_seed(seed)
     announce_compilation()
-    from samplekit._chosen.sampler import configured_sampler
+    from samplekit._configured.sampler import sampler as configured_sampler
     from samplekit.files._pointsets.csv import csv_text
 
     source = configured_sampler(sampler)

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -11,8 +10,7 @@ from samplekit.commands._completion import complete_scene
 from samplekit.commands._options import JsonOption, SamplerOption, SeedOption
 
 if TYPE_CHECKING:
-    from samplekit._integrate.plan import Plan
-    from samplekit._integrate.rendering import Rendering
+    from samplekit import Rendering
 
 
 def render(
@@ -49,129 +47,75 @@ def render(
 
     Example: samplekit render --sampler hammersley --spp 16
     """
-    from samplekit._parsing import parse_count, parse_crop, parse_seed, parse_size
+    from samplekit import render as render_image
+    from samplekit.commands import Progress, announce_compilation, parse_count, parse_crop, parse_seed, parse_size
 
-    if no_error and (ssim or flip):
-        from samplekit._errors import UsageError
-
-        raise UsageError("--ssim and --flip compare with the reference, which --no-error leaves out")
-    count, width_height = parse_count(spp, "spp"), parse_size(size)
-    window = parse_crop(crop, width_height) if crop else None
-    start = parse_seed(seed)
-    thread_count = parse_count(threads, "threads") if threads else None
-    from samplekit.files._images.rendering import check_stem
-
-    # Before kernels are compiled: half a minute for a folder that takes no file is lost.
-    check_stem(output, "image")
-    from samplekit.commands._notices import announce_compilation
-
+    width_height = parse_size(size)
     announce_compilation()
-    from samplekit._chosen.sampler import configured_sampler
-    from samplekit._chosen.scene import configured_scene
-    from samplekit._integrate.plan import make_plan
-    from samplekit._integrate.rendering import render_plan
-    from samplekit.commands._progress import Progress
-
-    plan = make_plan(
-        configured_scene(scene),
-        configured_sampler(sampler),
-        count,
-        size=width_height,
-        crop=window,
-        seed=start,
-        full=full,
-        reference=not no_error,
-    )
-    stem = check_stem(output, _name(plan))
-    if explain:
-        for line in plan.explain():
-            typer.echo(line, err=True)
     with Progress("rendering") as progress, Progress("preparing point sets") as preparing:
-        rendering = render_plan(
-            plan, threads=thread_count, progress=progress, preparing=preparing, ssim=ssim, flip=flip
+        rendering = render_image(
+            scene,
+            sampler,
+            parse_count(spp, "spp"),
+            size=width_height,
+            crop=parse_crop(crop, width_height) if crop else None,
+            seed=parse_seed(seed),
+            threads=parse_count(threads, "threads") if threads else None,
+            error=not no_error,
+            full=full,
+            ssim=ssim,
+            flip=flip,
+            output=output,
+            explain=_explain if explain else None,
+            progress=progress,
+            preparing=preparing,
         )
-    files = _write(stem, rendering)
-    _report(rendering, files, json)
+    if json:
+        from json import dumps
+
+        typer.echo(dumps(rendering.as_json(), allow_nan=False))
+    else:
+        for line in _table(rendering):
+            typer.echo(line)
     if no_error:
-        _warn_of_an_old_error_picture(stem)
-    invalid = int(rendering.metrics.get("invalid_pixels", 0))
-    if invalid:
-        from samplekit._errors import SamplekitError
-
-        message = _of_invalid(plan, int(rendering.metrics.get("invalid_samples", 0)), invalid)
-        if json:
-            typer.echo(f"samplekit: {message}", err=True)
-            return 1
-        raise SamplekitError(message)
-    return 0
+        _warn_of_an_old_error_picture(rendering)
+    return _report_invalid_pixels(rendering, json)
 
 
-def _of_invalid(plan: Plan, samples: int, pixels: int) -> str:
-    what = f"{samples} samples of {plan.scene.text} were not finite"
-    if not samples:
-        # The image is at fault, or else the reference: metrics count the pixels of both.
-        what = f"the means of {plan.scene.text}, or its reference, were not finite though all samples were"
-    return f"{what}, in {pixels} pixels: shown in magenta"
+def _explain(line: str) -> None:
+    typer.echo(line, err=True)
 
 
-def _name(plan: Plan) -> str:
-    whole = plan.window == (0, 0, *plan.size)
-    # A crop must not take the place of the whole image beside it.
-    crop = "" if whole else "-crop-" + "-".join(map(str, plan.window))
-    return f"{plan.scene.text}-{plan.sampler.text}-{plan.count}spp{crop}".replace(":", "-").replace("/", "-")
+def _table(rendering: Rendering) -> list[str]:
+    plan, size = rendering.plan, rendering.plan.pixels.size
+    lines = [f"{plan.pixels.scene.text}, {plan.sampler.text}, {plan.count} spp, {size[0]}x{size[1]}, seed {plan.seed}"]
+    for name, number in rendering.metrics.items():
+        lines.append(f"  {name:<16}{number if isinstance(number, int) else f'{number:.6g}'}")
+    times = ", ".join(f"{name} {seconds:.3f}" for name, seconds in rendering.seconds.items())
+    return [*lines, f"  {'seconds':<16}{times}", *(f"  {'wrote':<16}{file}" for file in rendering.files)]
 
 
-def _warn_of_an_old_error_picture(stem: Path) -> None:
+def _warn_of_an_old_error_picture(rendering: Rendering) -> None:
     """Say that a picture beside the new files shows the error of other ones."""
-    old = stem.with_name(f"{stem.name}.error.png")
+    old = rendering.files[0].with_name(f"{rendering.files[0].stem}.error.png")
     if old.exists():
         typer.echo(f"samplekit: {old} is of an earlier rendering: this one has no error (--no-error)", err=True)
 
 
-def _write(stem: Path, rendering: Rendering) -> list[Path]:
-    from samplekit._provenance import describe
-    from samplekit.files._images.rendering import write_rendering
+def _report_invalid_pixels(rendering: Rendering, json: bool) -> int:
+    """Return 1, with a line that says why, if pixels are not finite."""
+    metrics, scene = rendering.metrics, rendering.plan.pixels.scene.text
+    if not metrics.get("invalid_pixels"):
+        return 0
+    samples = metrics.get("invalid_samples", 0)
+    what = f"{samples} samples of {scene} were not finite"
+    if not samples:
+        # The image is at fault, or else the reference: metrics count the pixels of both.
+        what = f"the means of {scene}, or its reference, were not finite though all samples were"
+    message = f"{what}, in {metrics['invalid_pixels']} pixels: shown in magenta"
+    if json:
+        typer.echo(f"samplekit: {message}", err=True)
+        return 1
+    from samplekit import SamplekitError
 
-    plan = rendering.plan
-    x, y = plan.window[:2]
-    return write_rendering(
-        stem,
-        rendering.image,
-        rendering.reference,
-        rendering.error,
-        describe(rendering),
-        window=(x, y, *plan.size),
-    )
-
-
-def _report(rendering: Rendering, files: list[Path], as_json: bool) -> None:
-    from samplekit._provenance import SCHEMA, finite
-
-    plan = rendering.plan
-    if as_json:
-        import json
-
-        report: dict[str, Any] = {
-            "schema": SCHEMA,
-            "sampler": plan.sampler.text,
-            "scene": plan.scene.text,
-            "spp": plan.count,
-            "size": list(plan.size),
-            "window": list(plan.window),
-            "seed": plan.seed,
-            **finite(rendering.metrics),
-            "reference": rendering.reference_kind,
-            "seconds": rendering.seconds,
-            "files": [str(file) for file in files],
-        }
-        typer.echo(json.dumps(report, allow_nan=False))
-        return
-    typer.echo(
-        f"{plan.scene.text}, {plan.sampler.text}, {plan.count} spp, {plan.size[0]}x{plan.size[1]}, seed {plan.seed}"
-    )
-    for name, number in rendering.metrics.items():
-        typer.echo(f"  {name:<16}{number if isinstance(number, int) else f'{number:.6g}'}")
-    times = ", ".join(f"{name} {seconds:.3f}" for name, seconds in rendering.seconds.items())
-    typer.echo(f"  {'seconds':<16}{times}")
-    for file in files:
-        typer.echo(f"  {'wrote':<16}{file}")
+    raise SamplekitError(message)

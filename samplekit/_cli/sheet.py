@@ -25,7 +25,7 @@ def choose(kind: str, text: str) -> Chosen:
     """
     if kind == "samplers" and (":" in text or "+" in text):
         # Options and randomizers change a declaration, and only the implementation knows how.
-        from samplekit._chosen.sampler import configured_sampler
+        from samplekit._configured.sampler import sampler as configured_sampler
 
         sampler = configured_sampler(text)
         return sampler.text, sampler.spec, sampler.plugin

@@ -54,7 +54,7 @@ def stability(
     Example: samplekit stability --scene gaussian --sampler sobol+owen
     """
     from samplekit._errors import UsageError
-    from samplekit._parsing import parse_count, parse_counts, parse_seed
+    from samplekit.commands import parse_count, parse_counts, parse_seed
     from samplekit.commands._notices import announce_compilation
     from samplekit.commands._progress import Progress
 

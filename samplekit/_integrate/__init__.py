@@ -1,1 +1,1 @@
-"""From points to the mean of a pixel: the scene, the estimator, the plan, the renderer."""
+"""From points to the mean of a pixel: the plan, the one integration loop, rendering and estimates."""

@@ -1,177 +1,232 @@
-"""Points -> scene -> mean of a pixel: the one core that rendering and studies share.
+"""The integration loop: points, values of the scene, sums, means of pixels. Everything that integrates calls it.
 
-Works in tiles of about 512 KB of points, so that memory does not grow with the number of samples. Sums are taken in
-blocks of at most 1024 samples and combined pairwise: no result depends on the tile.
+It works in tiles of about 512 KB of points, so that memory does not grow with the number of samples. Sums are taken in
+blocks of at most 1024 samples, and blocks are combined pairwise: no result depends on the size of the tile.
 """
 
 from __future__ import annotations
 
 import threading
 import time
-from dataclasses import dataclass
-from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from samplekit._integrate.samples import sample_values
-from samplekit.kernels._sums import BLOCK, PairwiseSum
+from samplekit.kernels import BLOCK, PairwiseSum, row_sums
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Sequence
 
     from numpy.typing import NDArray
 
     from samplekit._bases.realizations import Realizations
-    from samplekit._chosen.sampler import ConfiguredSampler
-    from samplekit._chosen.scene import ConfiguredScene
+    from samplekit._configured.sampler import ConfiguredSampler
+    from samplekit._configured.scene import ConfiguredScene
+
+    Array = NDArray[np.float64]
 
 TILE_BYTES = 512 * 1024
 _scratch = threading.local()
-UNIT_SQUARE = (0.0, 1.0, 0.0, 1.0)
-"""The box of the unit square as one pixel."""
 
 
-@dataclass
-class Seconds:
-    """Time spent on points and on the scene, summed over threads."""
+class Observer(Protocol):
+    """Sees every tile of points before the scene does."""
 
-    points: float = 0.0
-    scene: float = 0.0
+    def __call__(self, tile: Array, boxes: Array) -> None:
+        """Take a block of samples float64[P, D, n] of the pixels ``boxes`` float64[4, P]; neither may be kept."""
 
 
-@dataclass(frozen=True)
-class Estimator:
-    """The mean of a scene over pixels, with ``count`` samples each.
+class Clock:
+    """Seconds spent on points and on the scene, by one or several timers.
+
+    Attributes
+    ----------
+    points, scene
+        Seconds by each of the timers.
+    """
+
+    def __init__(self, *timers: Callable[[], float]) -> None:
+        self._timers = timers or (time.perf_counter,)
+        self.points = [0.0] * len(self._timers)
+        self.scene = [0.0] * len(self._timers)
+        self._began: list[float] = []
+
+    def start(self) -> None:
+        """Remember what the timers show now."""
+        self._began = [timer() for timer in self._timers]
+
+    def stop(self, seconds: list[float]) -> None:
+        """Add the seconds since the start to ``points`` or to ``scene``."""
+        for index, timer in enumerate(self._timers):
+            seconds[index] += timer() - self._began[index]
+
+
+def unit_square(pixels: int) -> Array:
+    """Return the box of the unit square as one pixel, so many times: float64[4, pixels]."""
+    return np.repeat(np.array([0.0, 1.0, 0.0, 1.0])[:, None], pixels, axis=1)
+
+
+def pixels_per_tile(
+    scene: ConfiguredScene, sampler: ConfiguredSampler, count: int, tile_bytes: int = TILE_BYTES
+) -> int:
+    """Return the number of pixels whose points fill a tile."""
+    points = min(count, BLOCK) if sampler.streams else count
+    return max(1, tile_bytes // (8 * scene.dims * points))
+
+
+def integrate(
+    scene: ConfiguredScene,
+    sampler: ConfiguredSampler,
+    counts: Sequence[int],
+    realizations: Realizations,
+    boxes: Array,
+    *,
+    clock: Clock | None = None,
+    tick: Callable[[int], None] = lambda _: None,
+    observe: Observer | None = None,
+    tile_bytes: int = TILE_BYTES,
+) -> Array:
+    """Estimate the mean of a scene over pixels.
 
     Parameters
     ----------
-    scene, sampler, count
-        What is integrated, with which points, how many of them.
+    scene, sampler
+        The integrand, and the sampler that makes its points.
+    counts
+        Numbers of samples, rising. All estimates are of prefixes of one set of ``counts[-1]`` points, so several counts
+        need a progressive sampler.
+    realizations
+        One for each of the P pixels.
+    boxes
+        float64[4, P]: left edge, width, top edge, height.
+    clock
+        Receives the seconds spent on points and on the scene; None: a clock that nobody reads.
+    tick
+        Called now and then with the number of samples done since the last call.
+    observe
+        Called with each tile of points: for sums in extended precision, and to count values.
     tile_bytes
-        Size of a tile of points; results do not depend on it.
+        Size of a tile of points; no result depends on it.
+
+    Returns
+    -------
+    float64[len(counts), P]
     """
+    pixels, clock = len(realizations), clock or Clock()
+    at_once = pixels_per_tile(scene, sampler, counts[-1], tile_bytes)
+    means = np.empty((len(counts), pixels))
+    # Values that are not finite are counted and reported; a warning for each would drown that.
+    with np.errstate(all="ignore"):
+        for first in range(0, pixels, at_once):
+            part = slice(first, first + at_once)
+            tiles = _tiles(scene, sampler, counts, realizations[part], clock)
+            _integrate_tiles(scene, counts, tiles, boxes[:, part].copy(), means[:, part], clock, tick, observe)
+    return means
 
-    scene: ConfiguredScene
-    sampler: ConfiguredSampler
-    count: int
-    tile_bytes: int = TILE_BYTES
 
-    @cached_property
-    def pixels_per_tile(self) -> int:
-        """Number of pixels whose points fill a tile."""
-        points = min(self.count, BLOCK) if self.sampler.streams else self.count
-        return max(1, self.tile_bytes // (8 * self.scene.dims * points))
+def _integrate_tiles(
+    scene: ConfiguredScene,
+    counts: Sequence[int],
+    tiles: Iterator[tuple[int, int, Array]],
+    boxes: Array,
+    means: Array,
+    clock: Clock,
+    tick: Callable[[int], None],
+    observe: Observer | None,
+) -> None:
+    """Write the means of the pixels whose points come in ``tiles``."""
+    total, block, row = PairwiseSum(), np.zeros(0), 0
+    for start, stop, tile in tiles:
+        if observe is not None:
+            observe(tile, boxes)
+        sums = np.empty(boxes.shape[1])
+        clock.start()
+        scene.sums(tile, boxes, sums)
+        clock.stop(clock.scene)
+        tick(sums.size * (stop - start))
+        block = block + sums if start % BLOCK else sums
+        # The end of a single count joins the tree of partial sums; a prefix leaves the tree as it is.
+        joins = stop % BLOCK == 0 or len(counts) == 1
+        if joins:
+            total.add(block)
+        if stop == counts[row]:
+            sums = total.total() if joins else total.total() + block if stop > BLOCK else block
+            means[row] = sums / stop
+            row += 1
 
-    def means(
-        self,
-        realizations: Realizations,
-        boxes: NDArray[np.float64],
-        seconds: Seconds,
-        tick: Callable[[int], None] = lambda _: None,
-    ) -> NDArray[np.float64]:
-        """The estimates float64[P] for P pixels.
 
-        Parameters
-        ----------
-        realizations
-            One for each pixel.
-        boxes
-            float64[4, P]: left edge, width, top edge, height.
-        seconds
-            Receives the time spent.
-        tick
-            Called now and then with the number of samples done since the last call.
-        """
-        sums = np.empty(len(realizations))
-        buffer = self._buffer(min(sums.size, self.pixels_per_tile))
-        for first in range(0, sums.size, self.pixels_per_tile):
-            pixels = slice(first, first + self.pixels_per_tile)
-            self._sum(realizations[pixels], boxes[:, pixels].copy(), buffer, sums[pixels], seconds, tick)
-        return sums / self.count
+def _tiles(
+    scene: ConfiguredScene,
+    sampler: ConfiguredSampler,
+    counts: Sequence[int],
+    realizations: Realizations,
+    clock: Clock,
+) -> Iterator[tuple[int, int, Array]]:
+    """Yield the points from ``start`` to ``stop`` of the sets, float64[P, D, stop - start], segment by segment.
 
-    def _sum(
-        self,
-        realizations: Realizations,
-        boxes: NDArray[np.float64],
-        buffer: NDArray[np.float64],
-        out: NDArray[np.float64],
-        seconds: Seconds,
-        tick: Callable[[int], None],
-    ) -> None:
-        """Write the sums over all samples of a tile's pixels into ``out``."""
-        total = PairwiseSum()
-        block_sums = out
-        for start in range(0, self.count, BLOCK):
-            began = time.perf_counter()
-            tile = self._tile(realizations, start, buffer)
-            filled = time.perf_counter()
-            self.scene.sums(tile, boxes, block_sums)
-            seconds.points += filled - began
-            seconds.scene += time.perf_counter() - filled
-            tick(tile.shape[0] * tile.shape[2])
-            # Where one block is the whole set its sums are the result: nothing to combine.
-            if self.count > BLOCK:
-                total.add(block_sums)
-        if self.count > BLOCK:
-            out[:] = total.total()
+    A tile is overwritten by the next.
+    """
+    pixels, count = len(realizations), counts[-1]
+    clock.start()
+    whole: Array | None = None
+    if not sampler.streams and (count > BLOCK or len(counts) > 1):
+        # A part of such a set takes as long as the set: it is made once.
+        whole = np.empty((pixels, scene.dims, count))
+        sampler.fill(whole, realizations, count, 0)
+    buffer = _buffer(pixels * scene.dims * min(count, BLOCK))
+    for start, stop in _segments(counts):
+        if whole is not None:
+            tile = np.ascontiguousarray(whole[:, :, start:stop])
+        else:
+            tile = buffer[: pixels * scene.dims * (stop - start)].reshape(pixels, scene.dims, stop - start)
+            sampler.fill(tile, realizations, count, start)
+        clock.stop(clock.points)
+        yield start, stop, tile
+        clock.start()
 
-    def blocks(self, realizations: Realizations) -> Iterator[NDArray[np.float64]]:
-        """The points, block by block: float64[P, D, n] with n <= 1024, to be used before the next is asked for."""
-        buffer = self._buffer(len(realizations))
-        for start in range(0, self.count, BLOCK):
-            yield self._tile(realizations, start, buffer)
 
-    def invalid_samples(self, realizations: Realizations, boxes: NDArray[np.float64]) -> int:
-        """The number of samples at which the scene is not finite, over the given pixels."""
-        invalid = 0
-        buffer = self._buffer(1)
-        for pixel in range(len(realizations)):
-            single_pixel = realizations[pixel : pixel + 1]
-            for start in range(0, self.count, BLOCK):
-                tile = self._tile(single_pixel, start, buffer)
-                values = sample_values(self.scene, tile, boxes[:, pixel : pixel + 1])
-                invalid += int(np.count_nonzero(~np.isfinite(values)))
-        return invalid
+def _segments(counts: Sequence[int]) -> Iterator[tuple[int, int]]:
+    """Yield neighbouring ranges of indices, cut at every count and at every block."""
+    start = 0
+    for count in counts:
+        while start < count:
+            stop = min(count, (start // BLOCK + 1) * BLOCK)
+            yield start, stop
+            start = stop
 
-    def mean_of_constant(self, value: float) -> float:
-        """The estimate that ``count`` samples of one value give, in the same order of summation."""
-        from samplekit.kernels._row_sums import row_sums
 
-        def block_sum(samples: int) -> NDArray[np.float64]:
-            out = np.empty(1)
-            row_sums(np.full((1, samples), value), out)
-            return out
+def _buffer(size: int) -> Array:
+    """Return scratch memory of this thread, kept from call to call: fresh pages cost as much as filling them."""
+    buffer: Array | None = getattr(_scratch, "buffer", None)
+    if buffer is None or buffer.size < size:
+        buffer = _scratch.buffer = np.empty(size)
+    return buffer
 
-        blocks, rest = divmod(self.count, BLOCK)
-        total = PairwiseSum.of_equal(block_sum(BLOCK), blocks)
-        if rest:
-            total.add(block_sum(rest))
-        return float(total.total()[0] / self.count)
 
-    def _buffer(self, pixels: int) -> NDArray[np.float64]:
-        """Scratch memory of this thread, kept from call to call: fresh pages cost as much as filling them."""
-        size = pixels * self.scene.dims * min(self.count, BLOCK)
-        buffer: NDArray[np.float64] | None = getattr(_scratch, "buffer", None)
-        if buffer is None or buffer.size < size:
-            buffer = _scratch.buffer = np.empty(size)
-        return buffer
+def count_invalid_samples(
+    scene: ConfiguredScene, sampler: ConfiguredSampler, count: int, realizations: Realizations, boxes: Array
+) -> int:
+    """Return the number of samples at which the scene is not finite, over the given pixels."""
+    invalid = 0
 
-    def _tile(self, realizations: Realizations, start: int, buffer: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The block of points from ``start`` on, float64[P, D, n] with n <= 1024, in ``buffer``."""
-        pixels, dims = len(realizations), self.scene.dims
-        length = min(BLOCK, self.count - start)
-        if not self.sampler.streams and self.count > BLOCK:
-            return np.ascontiguousarray(self._whole(realizations)[:, :, start : start + length])
-        tile = buffer[: pixels * dims * length].reshape(pixels, dims, length)
-        self.sampler.fill(tile, realizations, self.count, start)
-        return tile
+    def observe(tile: Array, boxes: Array) -> None:
+        nonlocal invalid
+        invalid += int(np.count_nonzero(~np.isfinite(scene.values(tile, boxes))))
 
-    def _whole(self, realizations: Realizations) -> NDArray[np.float64]:
-        """The whole sets float64[P, D, N] of a sampler that makes no parts, kept while their blocks are used."""
-        kept: tuple[Realizations, NDArray[np.float64]] | None = getattr(_scratch, "whole", None)
-        if kept is None or kept[0] is not realizations:
-            whole = np.empty((len(realizations), self.scene.dims, self.count))
-            self.sampler.fill(whole, realizations, self.count, 0)
-            kept = _scratch.whole = (realizations, whole)
-        return kept[1]
+    integrate(scene, sampler, (count,), realizations, boxes, observe=observe)
+    return invalid
+
+
+def mean_of_constant(value: float, count: int) -> float:
+    """Return the estimate that ``count`` samples of one value give, in the same order of summation."""
+
+    def block_sum(samples: int) -> Array:
+        out = np.empty(1)
+        row_sums(np.full((1, samples), value), out)
+        return out
+
+    blocks, rest = divmod(count, BLOCK)
+    total = PairwiseSum.of_equal(block_sum(BLOCK), blocks)
+    if rest:
+        total.add(block_sum(rest))
+    return float(total.total()[0] / count)

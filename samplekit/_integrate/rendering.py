@@ -1,27 +1,34 @@
-"""Rendering: a plan's pixels, in tiles and on threads, into an image with its reference and error."""
+"""Rendering: the pixels of a plan, in tiles and on threads, into an image with its reference and error."""
 
 from __future__ import annotations
 
 import math
-import threading
+import os
 import time
-from concurrent.futures import Future, ThreadPoolExecutor, as_completed
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from samplekit import _provenance as provenance
+from samplekit._configured.sampler import sampler as configured_sampler
+from samplekit._configured.scene import scene as configured_scene
 from samplekit._errors import UsageError
-from samplekit._integrate.loop import TILE_BYTES, Estimator, Seconds
-from samplekit._integrate.pixels import locate
-from samplekit._integrate.threads import asking_for, check_threads
+from samplekit._integrate.loop import TILE_BYTES, Clock, count_invalid_samples, integrate, pixels_per_tile
+from samplekit._integrate.plan import Plan, make_plan
+from samplekit._threads import check_threads, on_threads, requesting
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from pathlib import Path
 
     from numpy.typing import NDArray
 
-    from samplekit._integrate.plan import Plan
+    from samplekit._configured.sampler import ConfiguredSampler
+    from samplekit._configured.scene import ConfiguredScene
+    from samplekit._specs import SamplerSpec, SceneSpec
+
+    Progress = Callable[[int, int], None]
 
 _JOBS_PER_THREAD = 8
 
@@ -45,6 +52,14 @@ class Rendering:
         What was rendered.
     reference_kind
         How exact the reference is, in words; empty when it was left out.
+    files
+        The files that were written.
+
+    Examples
+    --------
+    >>> import samplekit
+    >>> samplekit.render("disk", "jittered", spp=4, size=(8, 8)).error.shape
+    (8, 8)
     """
 
     image: NDArray[np.float64]
@@ -54,15 +69,153 @@ class Rendering:
     seconds: dict[str, float]
     plan: Plan = field(repr=False)
     reference_kind: str = ""
+    files: tuple[Path, ...] = ()
+
+    def describe(self) -> dict[str, Any]:
+        """Return how the image was made; the same for the same request, so without times and paths."""
+        return provenance.describe(self)
+
+    def as_json(self) -> dict[str, Any]:
+        """Return what ``samplekit render --json`` prints."""
+        plan, pixels = self.plan, self.plan.pixels
+        return {
+            "schema": provenance.SCHEMA,
+            "sampler": plan.sampler.text,
+            "scene": pixels.scene.text,
+            "spp": plan.count,
+            "size": list(pixels.size),
+            "window": list(pixels.window),
+            "seed": plan.seed,
+            **provenance.finite(self.metrics),
+            "reference": self.reference_kind,
+            "seconds": self.seconds,
+            "files": [str(file) for file in self.files],
+        }
+
+    def save(self, output: str | os.PathLike[str] = "", *, scale: float | None = None) -> Rendering:
+        """Write STEM.exr, STEM.png and, where there is an error, STEM.error.png: all of them or none.
+
+        Parameters
+        ----------
+        output
+            A folder, or ``STEM.exr``; by default the current folder.
+        scale
+            The error that has the strongest colour; None: the largest error, rounded up.
+
+        Returns
+        -------
+        The same rendering with its ``files``.
+
+        Raises
+        ------
+        UsageError
+            There can be no such files.
+        SamplekitError
+            A file cannot be written.
+        """
+        from samplekit.files import check_stem, write_rendering
+
+        pixels = self.plan.pixels
+        stem = check_stem(os.fspath(output), self.plan.file_stem)
+        window = (*pixels.window[:2], *pixels.size)
+        files = write_rendering(
+            stem, self.image, self.reference, self.error, self.describe(), window=window, scale=scale
+        )
+        return replace(self, files=tuple(files))
+
+
+def render(
+    scene: str | SceneSpec | ConfiguredScene,
+    sampler: str | SamplerSpec | ConfiguredSampler,
+    spp: int,
+    *,
+    size: tuple[int, int] = (512, 512),
+    crop: tuple[int, int, int, int] | None = None,
+    seed: int = 0,
+    threads: int | None = None,
+    error: bool = True,
+    full: bool = False,
+    ssim: bool = False,
+    flip: bool = False,
+    output: str | os.PathLike[str] | None = None,
+    explain: Callable[[str], None] | None = None,
+    progress: Progress | None = None,
+    preparing: Progress = lambda _, __: None,
+) -> Rendering:
+    """Render a scene, integrating every pixel with samples.
+
+    Parameters
+    ----------
+    scene, sampler
+        As on the command line, or what :func:`samplekit.scene` and :func:`samplekit.sampler` returned.
+    spp
+        Samples per pixel.
+    size
+        (width, height) in pixels.
+    crop
+        (x, y, width, height) of the part that is rendered; equal to the same pixels of the whole.
+    seed
+        From 0 to 2^64 - 1.
+    threads
+        None: as many as there are processors. The image does not depend on it.
+    error
+        Compute the exact reference, the error and the metrics.
+    full
+        Sample pixels in which the scene is constant as well; the image is the same bit for bit.
+    ssim, flip
+        Compute these metrics as well.
+    output
+        Where the files are written, as in :meth:`Rendering.save`; None: no files. A place that takes no files is
+        reported before anything is computed.
+    explain
+        Called with what is done and what is left out, line by line, before anything is computed.
+    progress
+        Called with the numbers of samples done and to do.
+    preparing
+        Called with the numbers of steps done and to do while the sampler makes what its sets share.
+
+    Raises
+    ------
+    UsageError
+        The request cannot be carried out.
+    SamplekitError
+        A plugin failed, or a file cannot be written.
+
+    Examples
+    --------
+    >>> import samplekit
+    >>> result = samplekit.render("disk:radius=0.25", "jittered", spp=16, size=(32, 32), seed=1)
+    >>> result.image.shape, result.metrics["pixels_sampled"] < 200
+    ((32, 32), True)
+    """
+    plan = make_plan(
+        configured_scene(scene),
+        configured_sampler(sampler),
+        spp,
+        size=size,
+        crop=crop,
+        seed=seed,
+        full=full,
+        reference=error,
+    )
+    if output is not None:
+        from samplekit.files import check_stem
+
+        check_stem(os.fspath(output), plan.file_stem)
+    if explain is not None:
+        for line in plan.explain():
+            explain(line)
+    rendering = render_plan(plan, threads=threads, progress=progress, preparing=preparing, ssim=ssim, flip=flip)
+    return rendering if output is None else rendering.save(output)
 
 
 def render_plan(
     plan: Plan,
     *,
     threads: int | None = None,
-    progress: Callable[[int, int], None] | None = None,
-    preparing: Callable[[int, int], None] = lambda _, __: None,
-    tile_bytes: int | None = None,
+    progress: Progress | None = None,
+    preparing: Progress = lambda _, __: None,
+    tile_bytes: int = TILE_BYTES,
     ssim: bool = False,
     flip: bool = False,
 ) -> Rendering:
@@ -72,16 +225,12 @@ def render_plan(
     ----------
     plan
         From :func:`make_plan`.
-    threads
-        At least 1; None: as many as there are processors. The image does not depend on it.
-    progress
-        Called with the numbers of samples done and to do.
+    threads, progress, ssim, flip
+        As in :func:`render`.
     preparing
         Called with the numbers of steps done and to do while the sampler makes what its sets share.
     tile_bytes
         Size of a tile of points. The image does not depend on it.
-    ssim, flip
-        Compute these metrics as well.
 
     Raises
     ------
@@ -91,59 +240,47 @@ def render_plan(
         A plugin failed.
     """
     threads = check_threads(threads)
+    pixels, scene = plan.pixels, plan.pixels.scene
     _check_metrics(plan, ssim, flip)
     if plan.reference:
-        # One that cannot be given is told before the samples are drawn, not after.
-        plan.scene.check_reference(plan.x_edges[:2], plan.y_edges[:2])
+        # A reference that the scene cannot give is reported before the samples are drawn, not after.
+        scene.check_reference(pixels.x_edges[:2], pixels.y_edges[:2])
     began = time.perf_counter()
-    estimator = Estimator(plan.scene, plan.sampler, plan.count, tile_bytes or TILE_BYTES)
-    plan.sampler.prepare(plan.count, plan.scene.dims, preparing)
-    setup_seconds = time.perf_counter() - began
-    share = math.ceil(plan.sampled.size / (threads * _JOBS_PER_THREAD))
-    job_pixels = math.ceil(share / estimator.pixels_per_tile) * estimator.pixels_per_tile
-    image = np.empty(plan.pixels)
-    _fill_constant(image, plan, estimator)
-    jobs = [plan.sampled[first : first + job_pixels] for first in range(0, plan.sampled.size, max(1, job_pixels))]
-    clock = _Clock(progress, plan.sampled.size * plan.count)
-    if threads == 1 or len(jobs) <= 1:
-        for job in jobs:
-            image[job] = _means(job, plan, estimator, clock)
-    else:
-        _run_on_threads(jobs, threads, plan, estimator, clock, image)
-    invalid = plan.sampled[~np.isfinite(image[plan.sampled])]
+    plan.sampler.prepare(plan.count, scene.dims, preparing)
+    seconds = {"setup": time.perf_counter() - began}
+    image, points, evaluation = _render_samples(plan, threads, progress, tile_bytes)
+    seconds |= {"points": points, "scene": evaluation}
     metrics: dict[str, float] = {}
     if not np.isfinite(image).all():
-        metrics["invalid_samples"] = estimator.invalid_samples(*locate(invalid, plan))
+        invalid = pixels.sampled[~np.isfinite(image[pixels.sampled])]
+        located = pixels.locate(invalid, plan.seed)
+        metrics["invalid_samples"] = count_invalid_samples(scene, plan.sampler, plan.count, *located)
         metrics["invalid_pixels"] = int(np.count_nonzero(~np.isfinite(image)))
-    shaped = image.reshape(plan.window[3], plan.window[2])
+    image = image.reshape(pixels.shape)
     reference = error = None
     reference_kind = ""
     reference_began = time.perf_counter()
+    seconds["reference"] = 0.0
     if plan.reference:
         from samplekit._metrics import metrics as image_metrics
 
-        with asking_for(threads):
-            exact = plan.scene.reference(plan.x_edges, plan.y_edges)
+        with requesting(threads):
+            exact = scene.reference(pixels.x_edges, pixels.y_edges)
         reference, reference_kind = exact.image, exact.kind
-        reference_seconds = time.perf_counter() - reference_began
-        error = shaped - reference
-        metrics |= image_metrics(shaped, reference, ssim=ssim, flip=flip)
+        seconds["reference"] = time.perf_counter() - reference_began
+        error = image - reference
+        metrics |= image_metrics(image, reference, ssim=ssim, flip=flip)
         if exact.error > 0.0:
             metrics["reference_error"] = exact.error
+    sampled = int(pixels.sampled.size)
     metrics |= {
-        "samples": int(plan.sampled.size) * plan.count,
-        "dims": plan.scene.dims,
-        "pixels_sampled": int(plan.sampled.size),
-        "pixels_left_out": plan.pixels - int(plan.sampled.size),
+        "samples": sampled * plan.count,
+        "dims": scene.dims,
+        "pixels_sampled": sampled,
+        "pixels_left_out": len(pixels) - sampled,
     }
-    seconds = {
-        "setup": setup_seconds,
-        "points": clock.seconds.points,
-        "scene": clock.seconds.scene,
-        "reference": reference_seconds if plan.reference else 0.0,
-        "total": time.perf_counter() - began,
-    }
-    return Rendering(shaped, reference, error, metrics, seconds, plan, reference_kind)
+    seconds["total"] = time.perf_counter() - began
+    return Rendering(image, reference, error, metrics, seconds, plan, reference_kind)
 
 
 def _check_metrics(plan: Plan, ssim: bool, flip: bool) -> None:
@@ -152,83 +289,36 @@ def _check_metrics(plan: Plan, ssim: bool, flip: bool) -> None:
     if ssim:
         from samplekit._metrics import check_ssim
 
-        check_ssim(plan.window[2:])
+        check_ssim(plan.pixels.window[2:])
 
 
-class _Clock:
-    """Progress and times from all threads, and the word to stop."""
+def _render_samples(
+    plan: Plan, threads: int, progress: Progress | None, tile_bytes: int
+) -> tuple[NDArray[np.float64], float, float]:
+    """Return the image float64[P], row by row, and the seconds that all threads spent on points and on the scene."""
+    pixels, scene, sampler = plan.pixels, plan.pixels.scene, plan.sampler
+    at_once = pixels_per_tile(scene, sampler, plan.count, tile_bytes)
+    share = math.ceil(pixels.sampled.size / (threads * _JOBS_PER_THREAD))
+    job_pixels = max(1, math.ceil(share / at_once) * at_once)
+    starts = range(0, pixels.sampled.size, job_pixels)
+    done, total = 0, pixels.sampled.size * plan.count
 
-    def __init__(self, progress: Callable[[int, int], None] | None, total: int) -> None:
-        self.seconds = Seconds()
-        self.stop = threading.Event()
-        self._progress = progress
-        self._total = total
-        self._done = 0
-        self._lock = threading.Lock()
+    def work(start: int, tick: Callable[[int], None]) -> tuple[NDArray[np.float64], Clock]:
+        clock = Clock()
+        realizations, boxes = pixels.locate(pixels.sampled[start : start + job_pixels], plan.seed)
+        means = integrate(
+            scene, sampler, (plan.count,), realizations, boxes, clock=clock, tick=tick, tile_bytes=tile_bytes
+        )
+        return means[0], clock
 
-    def tick(self, samples: int) -> None:
-        if self.stop.is_set():
-            raise _StoppedError
-        if self._progress is not None:
-            with self._lock:
-                self._done += samples
-                self._progress(self._done, self._total)
+    def tick(samples: int) -> None:
+        nonlocal done
+        done += samples
+        if progress is not None:
+            progress(done, total)
 
-    def add(self, seconds: Seconds) -> None:
-        with self._lock:
-            self.seconds.points += seconds.points
-            self.seconds.scene += seconds.scene
-
-
-class _StoppedError(Exception):
-    """Another thread failed, or the user interrupted."""
-
-
-def _fill_constant(image: NDArray[np.float64], plan: Plan, estimator: Estimator) -> None:
-    if plan.sampled.size == plan.pixels:
-        return
-    constant = plan.constant.ravel()
-    rest = np.flatnonzero(~np.isnan(constant))
-    constant = constant[rest]
-    # Neighbours are mostly equal: a run of them counts once, which is many times as fast as sorting all pixels.
-    starts = np.flatnonzero(np.concatenate([[True], constant[1:] != constant[:-1]]))
-    values, place = np.unique(constant[starts], return_inverse=True)
-    means = np.array([estimator.mean_of_constant(float(value)) for value in values])
-    image[rest] = np.repeat(means[place], np.diff(starts, append=rest.size))
-
-
-def _means(job: NDArray[np.int64], plan: Plan, estimator: Estimator, clock: _Clock) -> NDArray[np.float64]:
-    seconds = Seconds()
-    try:
-        means = estimator.means(*locate(job, plan), seconds, clock.tick)
-    except BaseException:
-        # At once, so that the other threads stop at their next tile and not when this one's failure is noticed.
-        clock.stop.set()
-        raise
-    clock.add(seconds)
-    return means
-
-
-def _run_on_threads(
-    jobs: list[NDArray[np.int64]],
-    threads: int,
-    plan: Plan,
-    estimator: Estimator,
-    clock: _Clock,
-    image: NDArray[np.float64],
-) -> None:
-    with ThreadPoolExecutor(threads) as pool:
-        futures: dict[Future[NDArray[np.float64]], NDArray[np.int64]] = {}
-        try:
-            # Here as well an interrupt must stop what has begun: leaving the pool waits for all of it.
-            for job in jobs:
-                futures[pool.submit(_means, job, plan, estimator, clock)] = job
-            for future in as_completed(futures):
-                image[futures[future]] = future.result()
-        except BaseException as error:
-            clock.stop.set()
-            pool.shutdown(wait=True, cancel_futures=True)
-            if not isinstance(error, _StoppedError):
-                raise
-            failures = (future.exception() for future in futures if not future.cancelled())
-            raise next(failure for failure in failures if failure and not isinstance(failure, _StoppedError)) from None
+    image, points, evaluation = pixels.constant_means(plan.count), 0.0, 0.0
+    for start, (means, clock) in on_threads(work, starts, threads, tick):
+        image[pixels.sampled[start : start + job_pixels]] = means
+        points, evaluation = points + clock.points[0], evaluation + clock.scene[0]
+    return image, points, evaluation

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
+import sys
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from samplekit._bases.realizations import Realizations
-from samplekit._integrate.loop import UNIT_SQUARE, Estimator, Seconds
-from samplekit._integrate.samples import sample_values
+from samplekit._integrate.loop import integrate, unit_square
 from samplekit._stability.extended import ExtendedSums
 
 if TYPE_CHECKING:
@@ -18,9 +18,9 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from samplekit._chosen.sampler import ConfiguredSampler
-    from samplekit._chosen.scene import ConfiguredScene
-    from samplekit._integrate.reference import Reference
+    from samplekit._bases.reference import Reference
+    from samplekit._configured.sampler import ConfiguredSampler
+    from samplekit._configured.scene import ConfiguredScene
 
     Array = NDArray[np.float64]
 
@@ -178,18 +178,20 @@ def measure(
 
     check_points(scene, sampler, count)
     sampler.prepare(count, scene.dims)
-    estimator = Estimator(scene, sampler, count)
     trials = Realizations.of_trials(0, realizations, seed, scene.blocks)
-    boxes = np.repeat(np.array(UNIT_SQUARE)[:, None], realizations, axis=1)
-    estimates = estimator.means(trials, boxes, Seconds())
     extended, magnitudes, moments = ExtendedSums(realizations), ExtendedSums(realizations), _Moments()
+
+    def observe(tile: Array, boxes: Array) -> None:
+        values = scene.values(tile, boxes)
+        moments.add(values)
+        magnitudes.add((np.abs(values),))
+        extended.add(scene.parts(tile, boxes))
+
+    # All realisations in one tile: the moments are about the median of the first block of all of them.
+    (estimates,) = integrate(
+        scene, sampler, (count,), trials, unit_square(realizations), tick=tick, observe=observe, tile_bytes=sys.maxsize
+    )
     with np.errstate(all="ignore"):
-        for tile in estimator.blocks(trials):
-            values = sample_values(scene, tile, boxes)
-            moments.add(values)
-            magnitudes.add((np.abs(values),))
-            extended.add(scene.parts(tile, boxes))
-            tick(tile.shape[0] * tile.shape[2])
         apart = extended.apart(estimates, count)
         exact = float(reference.image[0, 0])
         errors = estimates - exact

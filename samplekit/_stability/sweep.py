@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit._chosen.sampler import configured_sampler
-from samplekit._chosen.scene import configured_scene
+from samplekit._checks import LARGEST_SEED
+from samplekit._configured.sampler import sampler as configured_sampler
+from samplekit._configured.scene import scene as configured_scene
 from samplekit._errors import UsageError
-from samplekit._parsing import LARGEST_SEED
 from samplekit._registry import registry
 from samplekit._stability.cell import Measured, measure
 from samplekit._stability.verdict import Verdict, judge
@@ -18,9 +18,9 @@ from samplekit._stability.verdict import Verdict, judge
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from samplekit._chosen.sampler import ConfiguredSampler
-    from samplekit._chosen.scene import ConfiguredScene
-    from samplekit._integrate.reference import Reference
+    from samplekit._bases.reference import Reference
+    from samplekit._configured.sampler import ConfiguredSampler
+    from samplekit._configured.scene import ConfiguredScene
 
 SAMPLERS = ("random", "jittered", "correlated-multi-jittered", "halton+owen", "sobol+owen")
 COUNTS = (2**4, 2**8, 2**12, 2**16)

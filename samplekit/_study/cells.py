@@ -11,8 +11,8 @@ from samplekit._specs.counts import allows, nearest_below
 from samplekit._study.results import LeftOut
 
 if TYPE_CHECKING:
-    from samplekit._chosen.sampler import ConfiguredSampler
-    from samplekit._chosen.scene import ConfiguredScene
+    from samplekit._configured.sampler import ConfiguredSampler
+    from samplekit._configured.scene import ConfiguredScene
     from samplekit._study.request import Request
     from samplekit._study.subjects import Subjects
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from samplekit._study.jobs import Job
-    from samplekit._study.pool import Found
+    from samplekit._study.processes import Found
 
 _AHEAD = 3
 _PATIENCE = 20.0

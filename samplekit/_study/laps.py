@@ -1,7 +1,8 @@
-"""Run times: how long the points of a trial take, and the scene, measured again and again in turn.
+"""Run times of a trial: the seconds for its points and for the scene, measured lap after lap.
 
-All cells take a lap each, then all again: a machine that gets slower harms all alike. One thread; the first laps warm
-up and are not counted. A lap draws as many sets as last two milliseconds; its seconds are scaled to a trial.
+All cells take a lap each, then all again, so that a machine that gets slower harms all alike. One thread works. The
+first laps warm up and are not counted. A lap draws as many sets as take two milliseconds; its seconds are scaled to
+those of a trial.
 """
 
 from __future__ import annotations
@@ -12,10 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit._bases.realizations import Realizations
-from samplekit._integrate.loop import TILE_BYTES, UNIT_SQUARE
-from samplekit._integrate.pixels import locate
-from samplekit._integrate.plan import make_plan
-from samplekit.kernels._sums import BLOCK
+from samplekit._integrate.loop import Clock, integrate, unit_square
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -40,17 +38,14 @@ _MOST_PIXELS = 2**18
 _PLACES = 2**12
 
 
-class Course:
-    """What a cell's laps run over: sets of as many pixels as fill some milliseconds, spread over the image."""
+class TimingRun:
+    """Times the sets of one cell, lap by lap, over pixels that are spread over the image."""
 
     def __init__(self, cell: Cell, request: Request, subjects: Subjects) -> None:
         self.cell = cell
         self._scene = subjects.scene(cell.scene)
         self._sampler = subjects.prepared(cell.sampler, cell.count, cell.dims)
         self._realizations, self._boxes, self.sampled = _pixels(cell, request, subjects)
-        points = min(cell.count, BLOCK) if self._sampler.streams else cell.count
-        self._at_once = min(len(self._realizations), max(1, TILE_BYTES // (8 * cell.dims * points)))
-        self._buffer = np.empty(self._at_once * cell.dims * points)
         self._pixels = 1
         self._next = 0
         began = time.perf_counter()
@@ -59,7 +54,7 @@ class Course:
         self._quick_to_prepare = time.perf_counter() - began < _QUICK
 
     def warm_up(self, lap_seconds: float = LAP_SECONDS) -> float:
-        """Run laps that are not counted, until one lasts as long; it tells how many pixels the others have.
+        """Run laps that are not counted, until one lasts as long; it decides how many pixels a lap has.
 
         Returns
         -------
@@ -74,70 +69,42 @@ class Course:
             self._pixels = min(max(wanted, 2 * self._pixels), _MOST_PIXELS)
 
     def lap(self) -> Seconds:
-        """The seconds of one trial, from one lap."""
+        """Return the seconds of one trial, from one lap."""
         factor = self.sampled / self._pixels
         points_cpu, points_wall, scene_cpu, scene_wall = self._run(self._pixels)
         return points_cpu * factor, points_wall * factor, scene_cpu * factor, scene_wall * factor
 
     def _run(self, pixels: int) -> Seconds:
-        """Seconds for so many pixels; where there are fewer, for some of them again."""
+        """Return the seconds for so many pixels; where there are fewer, some are used again."""
         if self._quick_to_prepare:
             self._sampler.prepare(self.cell.count, self.cell.dims)
-        parts = []
-        for first in range(0, pixels, self._at_once):
-            start = (self._next + first) % (len(self._realizations) - self._at_once + 1)
-            part = slice(start, start + min(self._at_once, pixels - first))
-            parts.append((self._realizations[part], self._boxes[:, part].copy()))
-        self._next += pixels
-        # Apart, so that reading the clocks weighs nothing; points and sums stay in the cache as when they take turns.
-        marks = [_clocks()]
-        for realizations, _ in parts:
-            self._fill(realizations)
-        marks.append(_clocks())
-        for _, boxes in parts:
-            self._evaluate(boxes)
-        marks.append(_clocks())
-        (cpu0, wall0), (cpu1, wall1), (cpu2, wall2) = marks
-        return cpu1 - cpu0, wall1 - wall0, cpu2 - cpu1, wall2 - wall1
-
-    def _fill(self, realizations: Realizations) -> None:
-        count, dims, pixels = self.cell.count, self.cell.dims, len(realizations)
-        step = BLOCK if self._sampler.streams else count
-        for first in range(0, count, step):
-            length = min(step, count - first)
-            tile = self._buffer[: pixels * dims * length].reshape(pixels, dims, length)
-            self._sampler.fill(tile, realizations, count, first)
-
-    def _evaluate(self, boxes: Array) -> None:
-        count, dims, pixels = self.cell.count, self.cell.dims, boxes.shape[1]
-        sums = np.empty(pixels)
-        for first in range(0, count, BLOCK):
-            length = min(BLOCK, count - first)
-            tile = self._buffer[: pixels * dims * length].reshape(pixels, dims, length)
-            self._scene.sums(tile, boxes, sums)
-
-
-def _clocks() -> tuple[float, float]:
-    return time.process_time(), time.perf_counter()
+        clock = Clock(time.process_time, time.perf_counter)
+        while pixels > 0:
+            start = self._next % len(self._realizations)
+            part = slice(start, start + min(pixels, len(self._realizations) - start))
+            boxes = self._boxes[:, part]
+            integrate(self._scene, self._sampler, (self.cell.count,), self._realizations[part], boxes, clock=clock)
+            self._next += boxes.shape[1]
+            pixels -= boxes.shape[1]
+        return clock.points[0], clock.points[1], clock.scene[0], clock.scene[1]
 
 
 def _pixels(cell: Cell, request: Request, subjects: Subjects) -> tuple[Realizations, Array, int]:
-    """Pixels to time, with their boxes, and how many of such a trial has."""
-    scene = subjects.scene(cell.scene)
+    """Return pixels to time, their boxes, and how many such pixels a trial has."""
     if request.one_pixel:
         trials = np.arange(_PLACES, dtype=np.int64)
-        realizations = Realizations.of_pixels(trials, np.ones_like(trials), request.seed, scene.blocks)
-        return realizations, np.repeat(np.array(UNIT_SQUARE)[:, None], trials.size, axis=1), 1
-    plan = make_plan(
-        scene, subjects.sampler(cell.sampler), cell.count, size=request.size, seed=request.seed, reference=False
-    )
-    sampled = subjects.sampled(cell.scene, request.size)
-    if not sampled.size:
-        return *locate(np.zeros(1, np.int64), plan), 0
+        realizations = Realizations.of_pixels(
+            trials, np.ones_like(trials), request.seed, subjects.scene(cell.scene).blocks
+        )
+        return realizations, unit_square(trials.size), 1
+    pixels = subjects.pixels(cell.scene, request.size)
+    if not pixels.sampled.size:
+        return *pixels.locate(np.zeros(1, np.int64), request.seed), 0
     # Some run on from each other as in an image, the runs are spread over all of it.
-    runs = np.linspace(0, max(sampled.size - 64, 0), max(1, min(_PLACES, sampled.size) // 64)).astype(np.int64)
-    chosen = np.unique((runs[:, None] + np.arange(64)).clip(max=sampled.size - 1).ravel())
-    return *locate(sampled[chosen], plan), int(sampled.size)
+    last = pixels.sampled.size - 1
+    runs = np.linspace(0, max(last - 63, 0), max(1, min(_PLACES, last + 1) // 64)).astype(np.int64)
+    chosen = np.unique((runs[:, None] + np.arange(64)).clip(max=last).ravel())
+    return *pixels.locate(pixels.sampled[chosen], request.seed), last + 1
 
 
 def narrow(totals: Array) -> bool:
@@ -150,7 +117,7 @@ def narrow(totals: Array) -> bool:
 
 
 def run_laps(
-    courses: list[Course],
+    timings: list[TimingRun],
     seconds: float,
     known: Callable[[Cell], Array],
     keep: Callable[[list[tuple[Cell, Seconds]]], None],
@@ -160,7 +127,7 @@ def run_laps(
 
     Parameters
     ----------
-    courses
+    timings
         Warmed up.
     seconds
         The time there is.
@@ -172,17 +139,17 @@ def run_laps(
         Takes hundredths of the time done and to do.
     """
     began = time.perf_counter()
-    totals = {course.cell: list(known(course.cell)) for course in courses}
+    totals = {timing.cell: list(known(timing.cell)) for timing in timings}
     while True:
         over = time.perf_counter() - began >= seconds
         wanted = [
-            course
-            for course in courses
-            if len(totals[course.cell]) < FEWEST or not (over or narrow(np.array(totals[course.cell])))
+            timing
+            for timing in timings
+            if len(totals[timing.cell]) < FEWEST or not (over or narrow(np.array(totals[timing.cell])))
         ]
         if not wanted:
             return
-        laps = [(course.cell, course.lap()) for course in wanted]
+        laps = [(timing.cell, timing.lap()) for timing in wanted]
         for cell, lap in laps:
             totals[cell].append(lap[0] + lap[2])
         keep(laps)

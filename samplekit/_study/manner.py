@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from samplekit._checks import check_positive
 from samplekit._errors import UsageError
-from samplekit._integrate.threads import check_threads
-from samplekit._parsing import check_positive
+from samplekit._threads import check_threads
 
 
 @dataclass(frozen=True)

@@ -7,14 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit._integrate.plan import make_plan
-from samplekit._integrate.rendering import Rendering, render_plan
-from samplekit._provenance import describe
+from samplekit._integrate.rendering import Rendering, render
 from samplekit._study.folder import IMAGES
 from samplekit._study.plots import file_name
 from samplekit._study.results import Pictures
 from samplekit.files._images.falsecolor import rounded_up
-from samplekit.files._images.rendering import write_rendering
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -57,8 +54,7 @@ def write_pictures(
 
 def _rendering(row: Row, request: Request, subjects: Subjects, threads: int | None) -> Rendering:
     scene, sampler = subjects.scene(row.scene), subjects.sampler(row.sampler)
-    plan = make_plan(scene, sampler, row.count, size=request.size, seed=request.seed)
-    return render_plan(plan, threads=threads)
+    return render(scene, sampler, row.count, size=request.size, seed=request.seed, threads=threads)
 
 
 def _scale(renderings: list[Rendering]) -> float | None:
@@ -69,9 +65,7 @@ def _scale(renderings: list[Rendering]) -> float | None:
 
 
 def _write(row: Row, rendering: Rendering, scale: float | None, folder: Path) -> Pictures:
-    stem = folder / IMAGES / f"{file_name(row.scene)}-{file_name(row.sampler)}-{row.count}spp"
-    files = write_rendering(
-        stem, rendering.image, rendering.reference, rendering.error, describe(rendering), scale=scale
-    )
-    exr, png, error_png = (f"{IMAGES}/{file.name}" for file in files)
+    name = f"{file_name(row.scene)}-{file_name(row.sampler)}-{row.count}spp.exr"
+    saved = rendering.save(folder / IMAGES / name, scale=scale)
+    exr, png, error_png = (f"{IMAGES}/{file.name}" for file in saved.files)
     return Pictures(exr, png, error_png, scale or 0.0)

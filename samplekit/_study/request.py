@@ -6,10 +6,9 @@ from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
 from samplekit._bases.realizations import check_seed
+from samplekit._checks import check_positive, check_samples
 from samplekit._errors import UsageError
-from samplekit._integrate.plan import MOST_SAMPLES
 from samplekit._memory import check_memory
-from samplekit._parsing import check_positive
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -105,10 +104,6 @@ def checked_request(
     )
     if asked.trials > _MOST_TRIALS:
         raise UsageError(f"trials {trials}: at most {_MOST_TRIALS}")
-    samples = asked.pixels * asked.counts[-1]
-    if samples > MOST_SAMPLES:
-        raise UsageError(
-            f"{asked.pixels} pixels x {asked.counts[-1]} samples = {samples:.3g}: at most {MOST_SAMPLES:.3g} in a trial"
-        )
+    check_samples(asked.pixels, asked.counts[-1], "a trial")
     check_memory(_BYTES_PER_PIXEL * asked.pixels, f"images of {asked.pixels} pixels", ": choose a smaller --size")
     return asked

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from samplekit._integrate.reference import Reference
+    from samplekit._bases.reference import Reference
     from samplekit._study.cells import Cell
     from samplekit._study.errors import Errors
     from samplekit._study.request import Request
@@ -156,7 +156,7 @@ class Analysis:
         """Samples of one trial."""
         if self._request.one_pixel:
             return cell.count
-        return int(self._subjects.sampled(cell.scene, self._request.size).size) * cell.count
+        return int(self._subjects.pixels(cell.scene, self._request.size).sampled.size) * cell.count
 
     def _left_out(self, cell: Cell, errors: Errors, reference: Reference) -> str:
         """Why the fit does not use a row; empty: it does."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit._bases.realizations import Realizations
-from samplekit._integrate.loop import UNIT_SQUARE
+from samplekit._integrate.loop import unit_square
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -32,7 +32,7 @@ def set_up(
         sampler.fill(np.empty((1, cell.dims, cell.count)), Realizations.of_trials(0, 1, 0, scene.blocks), cell.count, 0)
 
     def evaluate() -> None:
-        scene.sums(tile, np.array(UNIT_SQUARE)[:, None].copy(), np.empty(1))
+        scene.sums(tile, unit_square(1), np.empty(1))
 
     first = {
         ("points", cell.sampler, cell.dims): fill,

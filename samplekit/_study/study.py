@@ -8,7 +8,6 @@ import time
 from typing import TYPE_CHECKING
 
 from samplekit._errors import UsageError
-from samplekit._integrate.threads import check_threads
 from samplekit._memory import check_memory
 from samplekit._study import ranking
 from samplekit._study.cells import lay_out
@@ -16,14 +15,16 @@ from samplekit._study.cluster import Cluster
 from samplekit._study.crossings import crossings
 from samplekit._study.folder import check_folder
 from samplekit._study.jobs import gaps, split
-from samplekit._study.laps import LAP_SECONDS, LOOK_SECONDS, Course, run_laps
+from samplekit._study.laps import LAP_SECONDS, LOOK_SECONDS, TimingRun, run_laps
 from samplekit._study.machine import describe_machine, kind, known_versions
-from samplekit._study.pool import in_processes, on_threads
+from samplekit._study.processes import in_processes
 from samplekit._study.results import Results
 from samplekit._study.rows import Analysis
 from samplekit._study.sentences import sentences
 from samplekit._study.setup import set_up
 from samplekit._study.store import Store
+from samplekit._study.trials import carry_out
+from samplekit._threads import check_threads, on_threads
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -90,18 +91,18 @@ class Study:
             A plugin failed, or the store cannot be written.
         """
         self._set_up(progress)
-        courses = [Course(cell, self._request, self._subjects) for cell in self._cells]
+        timings = [TimingRun(cell, self._request, self._subjects) for cell in self._cells]
         seconds = {}
-        for number, course in enumerate(courses):
-            seconds[course.cell] = course.warm_up(LAP_SECONDS if self._manner.times else LOOK_SECONDS)
-            progress("warming up", number + 1, len(courses))
+        for number, timing in enumerate(timings):
+            seconds[timing.cell] = timing.warm_up(LAP_SECONDS if self._manner.times else LOOK_SECONDS)
+            progress("warming up", number + 1, len(timings))
         if self._manner.times:
-            self._laps(courses, 0.0, progress)
+            self._laps(timings, 0.0, progress)
         began = time.perf_counter()
         self._errors(seconds, progress)
         if self._manner.times:
             share = max(_SHARE * (time.perf_counter() - began), _LEAST)
-            self._laps(courses, share if self._manner.budget is None else self._manner.budget, progress)
+            self._laps(timings, share if self._manner.budget is None else self._manner.budget, progress)
 
     def _set_up(self, progress: Progress) -> None:
         machine = kind(self._machine)
@@ -110,10 +111,10 @@ class Study:
             if self._manner.times:
                 self._store.add_setup(machine, cell, cpu, wall)
 
-    def _laps(self, courses: list[Course], seconds: float, progress: Progress) -> None:
+    def _laps(self, timings: list[TimingRun], seconds: float, progress: Progress) -> None:
         machine = kind(self._machine)
         run_laps(
-            courses,
+            timings,
             seconds,
             lambda cell: self._store.laps(machine, cell)[:, [0, 2]].sum(axis=1),
             lambda laps: self._store.add_laps(machine, laps),
@@ -146,7 +147,7 @@ class Study:
         elif self._manner.processes > 1:
             found = in_processes(jobs, workers, tick)
         else:
-            found = on_threads(jobs, workers, self._subjects, tick)
+            found = on_threads(lambda job, tick: carry_out(job, self._subjects, tick), jobs, workers, tick)
         # Closed whatever happens here: it stops the workers.
         with contextlib.closing(found):
             for job, sums in found:

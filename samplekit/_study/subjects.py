@@ -6,18 +6,16 @@ import threading
 import time
 from typing import TYPE_CHECKING, TypeVar, cast
 
-import numpy as np
-
-from samplekit._chosen.sampler import ConfiguredSampler, configured_sampler
-from samplekit._chosen.scene import ConfiguredScene, configured_scene
+from samplekit._configured.sampler import sampler as configured_sampler
+from samplekit._configured.scene import scene as configured_scene
+from samplekit._integrate.pixels import Pixels
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Hashable
 
-    from numpy.typing import NDArray
-
-    from samplekit._integrate.reference import Reference
-
+    from samplekit._bases.reference import Reference
+    from samplekit._configured.sampler import ConfiguredSampler
+    from samplekit._configured.scene import ConfiguredScene
 
 T = TypeVar("T")
 
@@ -59,19 +57,14 @@ class Subjects:
         self._once(("prepared", text, count, dims), prepare)
         return self.sampler(text)
 
+    def pixels(self, text: str, size: tuple[int, int]) -> Pixels:
+        """Return the pixels of an image of a scene."""
+        return self._once(("pixels", text, size), lambda: Pixels.whole(self.scene(text), size))
+
     def reference(self, text: str, size: tuple[int, int]) -> Reference:
-        """The exact image of a scene."""
-        edges = _edges(size)
-        return self._once(("reference", text, size), lambda: self.scene(text).reference(*edges))
-
-    def sampled(self, text: str, size: tuple[int, int]) -> NDArray[np.int64]:
-        """Flat indices of the pixels of an image of the scene that are sampled, row by row."""
-        return self._once(("sampled", text, size), lambda: np.flatnonzero(np.isnan(self.constant(text, size))))
-
-    def constant(self, text: str, size: tuple[int, int]) -> NDArray[np.float64]:
-        """The values float64[P] of the pixels in which the scene is constant, NaN elsewhere."""
-        edges = _edges(size)
-        return self._once(("constant", text, size), lambda: self.scene(text).constant(*edges).ravel())
+        """Return the exact image of a scene."""
+        pixels = self.pixels(text, size)
+        return self._once(("reference", text, size), lambda: pixels.scene.reference(pixels.x_edges, pixels.y_edges))
 
     def kept(self, key: Hashable, make: Callable[[], T]) -> T:
         """What ``make`` gives, made once."""
@@ -89,9 +82,3 @@ class Subjects:
                 self._made[key] = make()
                 self._seconds[key] = time.process_time() - cpu, time.perf_counter() - wall
             return cast("T", self._made[key])
-
-
-def _edges(size: tuple[int, int]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The edges of pixels, as renderings have them."""
-    width, height = size
-    return np.arange(width + 1) / width, np.arange(height + 1) / height

@@ -6,17 +6,13 @@ error over the pixels of an image cannot tie trials together; a trial of an imag
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from samplekit._bases.realizations import Realizations, seed_word
-from samplekit._integrate.loop import UNIT_SQUARE, Estimator, Seconds
-from samplekit._integrate.pixels import locate
-from samplekit._integrate.plan import make_plan
+from samplekit._integrate.loop import integrate, unit_square
 from samplekit._study.blurred import blurred_mean_square
-from samplekit._study.prefixes import prefix_means
 from samplekit.kernels._compile import kernel
 
 if TYPE_CHECKING:
@@ -69,8 +65,8 @@ def _of_square(job: Job, subjects: Subjects, tick: Tick) -> Array:
     trial = np.arange(job.first, job.last, dtype=np.int64)
     row = np.zeros_like(trial) if job.last <= _ROW else trial // _ROW
     realizations = Realizations.of_pixels((trial - row * _ROW) * _STRIDE, row * _STRIDE, job.seed, scene.blocks)
-    boxes = np.repeat(np.array(UNIT_SQUARE)[:, None], trial.size, axis=1)
-    errors = _means(job, subjects, realizations, boxes, tick) - subjects.reference(job.scene, (1, 1)).image[0, 0]
+    means = _means(job, subjects, realizations, unit_square(trial.size), tick)
+    errors = means - subjects.reference(job.scene, (1, 1)).image[0, 0]
     return np.stack([_batches(row, job.batch) for row in errors])
 
 
@@ -103,25 +99,21 @@ def _batches(errors: Array, batch: int) -> Array:
 def _means(job: Job, subjects: Subjects, realizations: Realizations, boxes: Array, tick: Tick) -> Array:
     """The estimates float64[counts, P]."""
     scene, sampler = subjects.scene(job.scene), subjects.sampler(job.sampler)
-    if len(job.counts) > 1:
-        return prefix_means(scene, sampler, job.counts, realizations, boxes, tick)
-    return Estimator(scene, sampler, job.counts[0]).means(realizations, boxes, Seconds(), tick)[None]
+    return integrate(scene, sampler, job.counts, realizations, boxes, tick=tick)
 
 
 def _of_images(job: Job, subjects: Subjects, tick: Tick) -> Array:
-    scene, sampler = subjects.scene(job.scene), subjects.sampler(job.sampler)
     reference = subjects.reference(job.scene, job.size).image.ravel()
-    plan = make_plan(scene, sampler, job.counts[-1], size=job.size, seed=job.seed, reference=False)
-    sampled = subjects.sampled(job.scene, job.size)
-    constant = np.stack([_constant(job, subjects, count) for count in job.counts])
+    pixels = subjects.pixels(job.scene, job.size)
+    constant = np.stack([_constant_means(job, subjects, count) for count in job.counts])
     rows = np.zeros((job.last - job.first, len(job.counts), COLUMNS))
     previous = np.empty((len(job.counts), reference.size))
     for number, trial in enumerate(range(job.first, job.last)):
         images = constant.copy()
-        seeded = replace(plan, seed=seed_of(job.seed, trial))
-        for start in range(0, sampled.size, _PIXELS_AT_ONCE):
-            pixels = sampled[start : start + _PIXELS_AT_ONCE]
-            images[:, pixels] = _means(job, subjects, *locate(pixels, seeded), tick)
+        seed = seed_of(job.seed, trial)
+        for start in range(0, pixels.sampled.size, _PIXELS_AT_ONCE):
+            part = pixels.sampled[start : start + _PIXELS_AT_ONCE]
+            images[:, part] = _means(job, subjects, *pixels.locate(part, seed), tick)
         errors = images - reference
         for row, error in enumerate(errors):
             rows[number, row] = _of_image(error, job.size)
@@ -162,13 +154,7 @@ def _mean(values: Array) -> float:
     return float(values.mean()) if values.size else 0.0
 
 
-def _constant(job: Job, subjects: Subjects, count: int) -> Array:
-    """The image float64[P] of the pixels that are not sampled, NaN elsewhere."""
-
-    def make() -> Array:
-        estimator = Estimator(subjects.scene(job.scene), subjects.sampler(job.sampler), count)
-        values, place = np.unique(subjects.constant(job.scene, job.size), return_inverse=True)
-        means = [np.nan if np.isnan(value) else estimator.mean_of_constant(float(value)) for value in values]
-        return np.array(means)[place]
-
-    return subjects.kept(("constant mean", job.scene, job.size, count), make)
+def _constant_means(job: Job, subjects: Subjects, count: int) -> Array:
+    """Return the image float64[P] of the pixels that are not sampled, NaN elsewhere."""
+    pixels = subjects.pixels(job.scene, job.size)
+    return subjects.kept(("constant means", job.scene, job.size, count), lambda: pixels.constant_means(count))

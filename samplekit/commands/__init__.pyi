@@ -6,3 +6,10 @@ from ._options import SamplerOption as SamplerOption
 from ._options import SeedOption as SeedOption
 from ._progress import Progress as Progress
 from ._progress import Stages as Stages
+from ._values import parse_count as parse_count
+from ._values import parse_counts as parse_counts
+from ._values import parse_crop as parse_crop
+from ._values import parse_number as parse_number
+from ._values import parse_range as parse_range
+from ._values import parse_seed as parse_seed
+from ._values import parse_size as parse_size

@@ -10,6 +10,7 @@ from ._digits import DIGITS_LIMIT as DIGITS_LIMIT
 from ._digits import fraction as fraction
 from ._digits import numerator as numerator
 from ._digits import tail_digits as tail_digits
+from ._direction import direction as direction
 from ._double_double import dd_add as dd_add
 from ._double_double import dd_multiply as dd_multiply
 from ._double_double import dd_scale as dd_scale

@@ -105,8 +105,8 @@ class PairwiseSum:
         return made
 
     def add(self, block_sums: NDArray[np.float64]) -> None:
-        """Add the sums float64[P] of the next block."""
-        carry = block_sums.copy()
+        """Add the sums float64[P] of the next block; the array must not change afterwards."""
+        carry = block_sums
         for level, partial in enumerate(self._levels):
             if partial is None:
                 self._levels[level] = carry
@@ -116,9 +116,9 @@ class PairwiseSum:
         self._levels.append(carry)
 
     def total(self) -> NDArray[np.float64]:
-        """The sums float64[P] of all blocks so far."""
+        """Return the sums float64[P] of all blocks so far; the array must not be changed."""
         partials = [partial for partial in self._levels if partial is not None]
-        result = partials[0].copy()
+        result = partials[0]
         for partial in partials[1:]:
             result = partial + result
         return result

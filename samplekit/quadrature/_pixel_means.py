@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit._integrate.threads import default_threads
+from samplekit._threads import default_threads
 from samplekit.quadrature._pieces import mark_crossed, piece_nodes, sum_cells
 
 if TYPE_CHECKING:

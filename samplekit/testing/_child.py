@@ -40,7 +40,7 @@ def main() -> None:
 
 
 def _points(recipe: Recipe, pickle: bytes | str, request: tuple[int, int, int, int]) -> dict[str, Any]:
-    from samplekit.testing._subject import configure
+    from samplekit._configured.sampler import sampler as configure
 
     answers: dict[str, Any] = {}
     sources: dict[str, Callable[[], Any]] = {"recipe": lambda: configure(recipe)}
@@ -66,8 +66,8 @@ def _unpickled(data: bytes) -> Any:
 
 
 def _extremes(recipe: Recipe, dims: int, counts: list[int]) -> list[tuple[str, int, NDArray[np.float64]]]:
+    from samplekit._configured.sampler import sampler as configure
     from samplekit.kernels import _hashing as hashing
-    from samplekit.testing._subject import configure
 
     warnings.simplefilter("ignore")
     word = np.uint64(0)

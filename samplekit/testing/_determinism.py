@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit._bases.realizations import Realizations
+from samplekit._configured.sampler import sampler as configured_sampler
 from samplekit.testing._elsewhere import ElsewhereError, points_elsewhere
 from samplekit.testing._result import CheckFailed, check
-from samplekit.testing._subject import configure
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -52,7 +52,7 @@ def check_determinism(subject: Subject) -> None:
         judge(subject.fill(asked, count, dims), "when asked again")
         _ask_for_something_else(subject, count, dims)
         judge(subject.fill(asked, count, dims), "after other requests")
-        judge(subject.fill(asked, count, dims, sampler=configure(subject.recipe)), "from a fresh sampler")
+        judge(subject.fill(asked, count, dims, sampler=configured_sampler(subject.recipe)), "from a fresh sampler")
         backwards = np.arange(REALIZATIONS - 1, -1, -1)
         reverse = Realizations.of_pixels(backwards, np.zeros_like(backwards), 0)
         judge(subject.fill(reverse, count, dims)[::-1], "with the realisations in reverse order")

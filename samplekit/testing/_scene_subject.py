@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit._chosen.scene import ConfiguredScene, configured_scene
-from samplekit._registry import Offer, Plugin
+from samplekit._configured.scene import scene as configured_scene
 from samplekit._specs import SceneSpec
 
 if TYPE_CHECKING:
@@ -23,10 +22,7 @@ class SceneSubject:
 
     def __init__(self, recipe: SceneRecipe, *, quick: bool = False) -> None:
         self.recipe = recipe
-        if isinstance(recipe, str):
-            self.scene: ConfiguredScene = configured_scene(recipe)
-        else:
-            self.scene = ConfiguredScene(Offer(recipe, Plugin("not-installed", "none", "0")), {})
+        self.scene = configured_scene(recipe)
         self.spec = self.scene.spec
         self.text = self.scene.text
         self.dims = self.scene.dims

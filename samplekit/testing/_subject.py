@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit._bases.realizations import Realizations
-from samplekit._chosen.sampler import ConfiguredSampler, configured_sampler
-from samplekit._errors import SamplekitError, UsageError
-from samplekit._registry import Offer, Plugin
+from samplekit._configured.sampler import sampler as configured_sampler
+from samplekit._errors import InvalidPointsError, SamplekitError, UsageError
 from samplekit._specs import SamplerSpec
 from samplekit.testing._declared import allows, counts_of, dims_of, most_dims
 from samplekit.testing._result import CheckFailed, CounterExample
@@ -21,6 +20,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from numpy.typing import NDArray
+
+    from samplekit._configured.sampler import ConfiguredSampler
 
 Recipe = str | SamplerSpec
 """What a user writes (``"sobol+owen"``), or the declaration of a sampler that is not installed."""
@@ -31,13 +32,6 @@ _LARGEST_COUNTS = ((0.02, 1 << 17), (0.2, 1 << 12), (1.0, 1 << 10))
 """Seconds that 256 points take at most, and the largest set that is then judged; work may grow as the square."""
 _SECONDS_A_REQUEST = 1.5
 _SECONDS_A_QUICK_REQUEST = 0.15
-
-
-def configure(recipe: Recipe) -> ConfiguredSampler:
-    """The sampler that a recipe makes."""
-    if isinstance(recipe, str):
-        return configured_sampler(recipe)
-    return ConfiguredSampler(Offer(recipe, Plugin("not-installed", "none", "0")), {})
 
 
 class Subject:
@@ -54,7 +48,7 @@ class Subject:
 
     def __init__(self, recipe: Recipe, *, quick: bool = False) -> None:
         self.recipe = recipe
-        self.sampler = sampler = configure(recipe)
+        self.sampler = sampler = configured_sampler(recipe)
         self.spec = sampler.spec
         self.text = sampler.text
         self.quick = quick
@@ -143,10 +137,12 @@ class Subject:
             source.fill(out, realizations, count, start)
         except UsageError as error:
             raise CheckFailed(f"refuses what it declares: {error}", self.request(count, dims, realizations)) from None
-        except SamplekitError as error:
-            # The framework refuses values outside [0, 1); here they are evidence.
-            if error.__cause__ is not None or not np.isfinite(out).all():
+        except InvalidPointsError as error:
+            # Rendering refuses values outside [0, 1); here they are evidence.
+            if not np.isfinite(out).all():
                 raise CheckFailed(str(error), self.request(count, dims, realizations)) from None
+        except SamplekitError as error:
+            raise CheckFailed(str(error), self.request(count, dims, realizations)) from None
         self.drawn += len(realizations) * number
         if not unwritten_ok and np.isnan(out).any():
             row, _, point = (int(i) for i in np.argwhere(np.isnan(out))[0])

@@ -6,7 +6,7 @@ import difflib
 import time
 from typing import TYPE_CHECKING, Any, Literal
 
-from samplekit._errors import SamplekitError, UsageError
+from samplekit._errors import AmbiguousNameError, UnknownNameError, UsageError
 from samplekit.testing import _scenes as scenes
 from samplekit.testing._determinism import check_determinism, check_seed
 from samplekit.testing._dimensions import check_across_dimensions
@@ -179,9 +179,9 @@ def kinds_of(name: str, *, load: bool = True) -> list[Literal["sampler", "scene"
     UsageError
         Neither, or wrong options.
     """
-    from samplekit._chosen.sampler import configured_sampler
-    from samplekit._chosen.scene import configured_scene
-    from samplekit._parsing import parse_choice
+    from samplekit._choices import parse_choice
+    from samplekit._configured.sampler import sampler as configured_sampler
+    from samplekit._configured.scene import scene as configured_scene
     from samplekit._registry import registry
 
     plain = parse_choice(name, "sampler").name.rpartition("/")[2]
@@ -203,6 +203,8 @@ def kinds_of(name: str, *, load: bool = True) -> list[Literal["sampler", "scene"
 def _is_known(find: Callable[..., Any], kind: str, name: str) -> bool:
     try:
         find(kind, name)
-    except SamplekitError as error:
-        return "is offered by" in str(error)
+    except UnknownNameError:
+        return False
+    except AmbiguousNameError:
+        return True
     return True

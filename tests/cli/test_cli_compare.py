@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from samplekit._study import pool
+from samplekit._study import processes as pool
 from samplekit._study.results import SCHEMA, from_json
 
 ASK = ("compare", "-s", "random", "-s", "jittered", "--scene", "disk", "--spp", "4,13")

@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from samplekit._chosen import sampler as configured
+from samplekit._configured import sampler as configured
 from samplekit._integrate import plan
 from samplekit._integrate import rendering as renderer
 from samplekit._registry import registry

@@ -14,7 +14,7 @@ import pytest
 
 import samplekit
 from samplekit._cli import run
-from samplekit._integrate.loop import Estimator
+from samplekit._integrate import rendering
 from samplekit.files._images.exr import read_parts
 from samplekit.files._images.info import read_info
 from samplekit.files._images.png import read_png
@@ -297,7 +297,7 @@ def test_a_sum_that_overflows_is_no_sample_that_is_not_finite(command, plugins):
 
 
 def test_what_must_fail_fails_before_a_sample_is_drawn(command, plugins, monkeypatch, tmp_path):
-    monkeypatch.setattr(Estimator, "means", lambda *_: pytest.fail("samples were drawn first"))
+    monkeypatch.setattr(rendering, "integrate", lambda *_, **__: pytest.fail("samples were drawn first"))
     plugins.offer("toys", "scene", 'SceneSpec("toy", "toy_scene:Toy", "")')
     plugins.module(
         "toy_scene",

@@ -7,11 +7,11 @@ import pytest
 
 import samplekit
 from samplekit._bases.realizations import Realizations
-from samplekit._chosen.sampler import ConfiguredSampler
-from samplekit._chosen.scene import ConfiguredScene
+from samplekit._configured.sampler import ConfiguredSampler
+from samplekit._configured.scene import ConfiguredScene
 from samplekit._errors import SamplekitError, UsageError
-from samplekit._integrate.loop import UNIT_SQUARE, Estimator, Seconds
-from samplekit._registry import Offer, Plugin
+from samplekit._integrate.loop import Clock, count_invalid_samples, integrate, mean_of_constant, unit_square
+from samplekit._registry import Plugin, Registration
 from samplekit._specs import Option, SamplerSpec, SceneSpec
 
 COUNTS = (1, 3, 1000, 1024, 1025, 5000)
@@ -21,11 +21,13 @@ TOYS = Plugin("toys", "toys", "1")
 
 def a_scene(name, target, **options):
     declared = tuple(Option(option, value) for option, value in options.items())
-    return ConfiguredScene(Offer(SceneSpec(name, f"{__name__}:{target}", "", options=declared), TOYS), options)
+    return ConfiguredScene(
+        Registration(SceneSpec(name, f"{__name__}:{target}", "", options=declared), TOYS, name), options
+    )
 
 
 def a_sampler(name, target):
-    return ConfiguredSampler(Offer(SamplerSpec(name, f"{__name__}:{target}", ""), TOYS), {})
+    return ConfiguredSampler(Registration(SamplerSpec(name, f"{__name__}:{target}", ""), TOYS, name), {})
 
 
 class Drawn(samplekit.Sampler):
@@ -142,11 +144,11 @@ def test_points_of_a_plugin_give_the_same_by_either_door(count, door, dims):
 def test_no_estimate_depends_on_the_tile(sampler, count):
     source = samplekit.sampler(sampler) if isinstance(sampler, str) else a_sampler("toy", sampler.__name__)
     scene = samplekit.scene("gaussian")
-    boxes = np.repeat(np.array(UNIT_SQUARE)[:, None], 11, axis=1)
+    boxes = unit_square(11)
     trials = Realizations.of_trials(0, 11, 3)
 
     def means(tile_bytes):
-        return Estimator(scene, source, count, tile_bytes).means(trials, boxes, Seconds())
+        return integrate(scene, source, (count,), trials, boxes, tile_bytes=tile_bytes)[0]
 
     expected = means(2**30)
     for tile_bytes in (1, 16 * count, 48 * count, 100_000):
@@ -165,16 +167,13 @@ def test_the_mean_of_a_constant_is_that_of_as_many_samples_to_the_bit(value):
     scene = a_scene("constant", "Constant", value=value)
     for count in COUNTS:
         source = samplekit.sampler("random")
-        sampled = Estimator(scene, source, count).means(
-            Realizations.of_trials(0, 1, 0), np.array(UNIT_SQUARE)[:, None], Seconds()
-        )
-        computed = np.array([Estimator(scene, source, count).mean_of_constant(value)])
+        (sampled,) = integrate(scene, source, (count,), Realizations.of_trials(0, 1, 0), unit_square(1))
+        computed = np.array([mean_of_constant(value, count)])
         assert np.array_equal(computed.view(np.uint64), sampled.view(np.uint64))
 
 
 def test_the_mean_of_a_constant_takes_no_time_at_any_count():
-    made = Estimator(samplekit.scene("disk"), samplekit.sampler("random"), 2**48 - 1)
-    assert made.mean_of_constant(0.1) == pytest.approx(0.1, rel=1e-15)
+    assert mean_of_constant(0.1, 2**48 - 1) == pytest.approx(0.1, rel=1e-15)
 
 
 @pytest.mark.parametrize("count", COUNTS)
@@ -182,8 +181,7 @@ def test_the_mean_of_a_constant_takes_no_time_at_any_count():
 def test_every_sample_that_is_not_finite_is_counted(count, sampler):
     source = samplekit.sampler(sampler) if isinstance(sampler, str) else a_sampler("toy", sampler.__name__)
     trials = Realizations.of_trials(0, 3, 0)
-    boxes = np.repeat(np.array(UNIT_SQUARE)[:, None], 3, axis=1)
-    counted = Estimator(a_scene("holes", "Holes"), source, count).invalid_samples(trials, boxes)
+    counted = count_invalid_samples(a_scene("holes", "Holes"), source, count, trials, unit_square(3))
     points = samplekit.points(source, count, 2, realizations=3)
     assert counted == np.count_nonzero(points[:, :, 0] < 0.3)
 
@@ -194,13 +192,12 @@ def test_an_invalid_estimate_says_so():
 
 
 def test_seconds_are_summed_and_ticks_count_the_samples():
-    seconds, done = Seconds(), []
-    Estimator(samplekit.scene("disk"), samplekit.sampler("random"), 3000, 2**15).means(
-        Realizations.of_trials(0, 10, 0), np.repeat(np.array(UNIT_SQUARE)[:, None], 10, axis=1), seconds, done.append
-    )
+    clock, done = Clock(), []
+    scene, sampler, trials = samplekit.scene("disk"), samplekit.sampler("random"), Realizations.of_trials(0, 10, 0)
+    integrate(scene, sampler, (3000,), trials, unit_square(10), clock=clock, tick=done.append, tile_bytes=2**15)
     assert sum(done) == 30000
-    assert seconds.points > 0
-    assert seconds.scene > 0
+    assert clock.points[0] > 0
+    assert clock.scene[0] > 0
 
 
 @pytest.mark.parametrize("realizations", [0, -1, 2.0, "3", None, True])

@@ -12,7 +12,7 @@ import samplekit
 from samplekit import UsageError
 
 OURS = [
-    "samplekit._integrate.numerical",
+    "samplekit.quadrature._numerical",
     "samplekit.quadrature._pixel_means",
     "samplekit.quadrature._pieces",
     "samplekit.quadrature._kept_means",
@@ -65,7 +65,7 @@ def imported(arguments, folder):
     return set(names), total
 
 
-ADAPTIVE = {"pixel_means", "pieces", "kept_means"}
+ADAPTIVE = {"_pixel_means", "_pieces", "_kept_means"}
 
 
 @pytest.mark.parametrize(
@@ -73,15 +73,15 @@ ADAPTIVE = {"pixel_means", "pieces", "kept_means"}
     [
         ("--version", set()),
         ("list scenes", set()),
-        ("render disk", {"metrics"}),
+        ("render disk", {"_metrics"}),
         ("render depth-of-field --no-error", {"depth_of_field", "depth_of_field_bounds"}),
         (
             "render depth-of-field:pixel-filter=center",
-            {"depth_of_field", "depth_of_field_bounds", "depth_of_field_lens", "metrics"},
+            {"depth_of_field", "depth_of_field_bounds", "depth_of_field_lens", "_metrics"},
         ),
         (
             "render depth-of-field",
-            {"depth_of_field", "depth_of_field_bounds", "depth_of_field_lens", "metrics", *ADAPTIVE},
+            {"depth_of_field", "depth_of_field_bounds", "depth_of_field_lens", "_metrics", *ADAPTIVE},
         ),
         ("render motion-blur --no-error", {"motion_blur"}),
         ("render ambient-occlusion --no-error", {"ambient_occlusion"}),

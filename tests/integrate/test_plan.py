@@ -7,10 +7,11 @@ import pytest
 
 import samplekit
 from samplekit import _memory as memory
-from samplekit._chosen.scene import ConfiguredScene
+from samplekit._checks import MOST_SAMPLES
+from samplekit._configured.scene import ConfiguredScene
 from samplekit._errors import SamplekitError, UsageError
-from samplekit._integrate.plan import MOST_SAMPLES, make_plan
-from samplekit._registry import Offer, Plugin
+from samplekit._integrate.plan import make_plan
+from samplekit._registry import Plugin, Registration
 from samplekit._specs import Option, SceneSpec
 
 
@@ -37,7 +38,7 @@ class Blurred(samplekit.Scene):
 def blurred(aperture):
     purposes = (("pixel", 2), ("lens", 2), ("time", 1))
     spec = SceneSpec("blurred", f"{__name__}:Blurred", "", options=(Option("aperture", 0.0),), purposes=purposes)
-    return ConfiguredScene(Offer(spec, Plugin("toys", "toys", "1")), {"aperture": aperture})
+    return ConfiguredScene(Registration(spec, Plugin("toys", "toys", "1"), spec.name), {"aperture": aperture})
 
 
 def test_dimensions_are_those_that_the_scene_needs_with_these_options():
@@ -55,43 +56,43 @@ def test_dimensions_are_those_that_the_scene_needs_with_these_options():
 
 def test_edges_are_those_of_the_whole_image_as_stored():
     whole = plan(size=(7, 11))
-    assert np.array_equal(whole.x_edges, [i / 7 for i in range(8)])
-    assert np.array_equal(whole.y_edges, [j / 11 for j in range(12)])
+    assert np.array_equal(whole.pixels.x_edges, [i / 7 for i in range(8)])
+    assert np.array_equal(whole.pixels.y_edges, [j / 11 for j in range(12)])
     crop = plan(size=(7, 11), crop=(3, 5, 2, 4))
-    assert np.array_equal(crop.x_edges, whole.x_edges[3:6])
-    assert np.array_equal(crop.y_edges, whole.y_edges[5:10])
-    assert crop.pixels == 8
+    assert np.array_equal(crop.pixels.x_edges, whole.pixels.x_edges[3:6])
+    assert np.array_equal(crop.pixels.y_edges, whole.pixels.y_edges[5:10])
+    assert len(crop.pixels) == 8
 
 
 @pytest.mark.parametrize("size", [(1, 1), (3, 5), (49, 7), (640, 480)])
 def test_edges_end_at_exactly_0_and_1(size):
     made = plan(size=size)
-    assert made.x_edges[0] == made.y_edges[0] == 0.0
-    assert made.x_edges[-1] == made.y_edges[-1] == 1.0
-    assert made.window == (0, 0, *size)
+    assert made.pixels.x_edges[0] == made.pixels.y_edges[0] == 0.0
+    assert made.pixels.x_edges[-1] == made.pixels.y_edges[-1] == 1.0
+    assert made.pixels.window == (0, 0, *size)
 
 
 def test_of_a_disk_only_the_rim_is_sampled():
     made = plan(size=(512, 512))
-    assert 0 < made.sampled.size <= 0.02 * made.pixels
-    assert np.isnan(made.constant.ravel()[made.sampled]).all()
-    assert set(np.unique(made.constant[~np.isnan(made.constant)])) == {0.0, 1.0}
+    assert 0 < made.pixels.sampled.size <= 0.02 * len(made.pixels)
+    assert np.isnan(made.pixels.constant.ravel()[made.pixels.sampled]).all()
+    assert set(np.unique(made.pixels.constant[~np.isnan(made.pixels.constant)])) == {0.0, 1.0}
     # The rim passes through the pixels that are sampled, and through no other.
-    reference = samplekit.scene("disk").exact(made.x_edges, made.y_edges).ravel()
+    reference = samplekit.scene("disk").exact(made.pixels.x_edges, made.pixels.y_edges).ravel()
     cut = np.flatnonzero((reference > 0) & (reference < 1))
-    assert np.isin(cut, made.sampled).all()
-    assert made.sampled.size - cut.size <= 4
+    assert np.isin(cut, made.pixels.sampled).all()
+    assert made.pixels.sampled.size - cut.size <= 4
 
 
 def test_full_samples_every_pixel():
     made = plan(size=(512, 512), full=True)
-    assert made.sampled.size == 512 * 512
+    assert made.pixels.sampled.size == 512 * 512
     assert "pixels: all sampled (--full)" in made.explain()
 
 
 def test_a_scene_that_is_constant_everywhere_needs_no_samples():
     made = plan("disk:radius=0", size=(16, 16))
-    assert made.sampled.size == 0
+    assert made.pixels.sampled.size == 0
     assert "left out: 256 of 256 pixels (100.00 %), in which the scene is proven constant" in made.explain()
     assert "samples: 0 pixels x 4 = 0" in made.explain()
 
@@ -118,13 +119,13 @@ def test_sizes_that_cannot_be_are_refused(size):
 
 def test_sizes_may_be_integers_of_numpy():
     made = plan(size=(np.uint8(200), np.int64(3)))
-    assert made.size == (200, 3)
-    assert all(type(side) is int for side in made.size)
+    assert made.pixels.size == (200, 3)
+    assert all(type(side) is int for side in made.pixels.size)
 
 
 def test_counts_may_be_integers_of_numpy():
     made = plan("gaussian", count=np.uint8(200), size=(64, 64))
-    assert made.sampled.size * made.count == 64 * 64 * 200
+    assert made.pixels.sampled.size * made.count == 64 * 64 * 200
 
 
 @pytest.mark.parametrize(
@@ -168,16 +169,16 @@ def test_an_image_beyond_the_memory_is_refused_with_the_way_out(monkeypatch):
         plan(size=(10**6, 10**6))
     # A part of it is no more work than an image of that size.
     part = plan("gaussian", size=(2**31, 2**31), crop=(2**30, 2**30, 3, 2))
-    assert part.sampled.size == part.pixels == 6
-    assert np.array_equal(part.x_edges, np.arange(2**30, 2**30 + 4) / 2**31)
+    assert part.pixels.sampled.size == len(part.pixels) == 6
+    assert np.array_equal(part.pixels.x_edges, np.arange(2**30, 2**30 + 4) / 2**31)
     # What is free is not even asked for a small one.
     monkeypatch.setattr(memory, "_UNQUESTIONED_BYTES", 2**62)
-    assert plan(size=(4096, 4096)).pixels == 2**24
+    assert len(plan(size=(4096, 4096)).pixels) == 2**24
 
 
 def test_nothing_is_computed_before_it_is_needed():
     made = make_plan(blurred(0.0), samplekit.sampler("random"), 4, size=(4, 4), reference=True)
-    assert made.sampled.size == 16
+    assert made.pixels.sampled.size == 16
 
 
 class Lying(samplekit.Scene):
@@ -198,9 +199,9 @@ class Lying(samplekit.Scene):
 )
 def test_a_scene_that_cannot_tell_its_constant_pixels_is_named(what, reason):
     spec = SceneSpec("lying", f"{__name__}:Lying", "", options=(Option("what", ""),))
-    scene = ConfiguredScene(Offer(spec, Plugin("toys", "toy-box", "1")), {"what": what})
+    scene = ConfiguredScene(Registration(spec, Plugin("toys", "toy-box", "1"), spec.name), {"what": what})
     made = make_plan(scene, samplekit.sampler("random"), 4, size=(8, 6))
     with pytest.raises(SamplekitError, match=reason) as error:
-        _ = made.sampled
+        _ = made.pixels.sampled
     assert "of plugin toys (toy-box 1) cannot tell constant pixels" in str(error.value)
     assert "\n" not in str(error.value)

@@ -9,12 +9,12 @@ import pytest
 
 import samplekit
 from samplekit._bases.realizations import Realizations
-from samplekit._chosen.sampler import ConfiguredSampler
-from samplekit._chosen.scene import ConfiguredScene
+from samplekit._configured.sampler import ConfiguredSampler
+from samplekit._configured.scene import ConfiguredScene
 from samplekit._errors import SamplekitError, UsageError
 from samplekit._integrate.plan import make_plan
 from samplekit._integrate.rendering import render_plan
-from samplekit._registry import Offer, Plugin, Registry
+from samplekit._registry import Plugin, Registration, Registry
 from samplekit._specs import Option, SamplerSpec, SceneSpec
 
 TOYS = Plugin("toys", "toys", "1")
@@ -43,11 +43,13 @@ VARIANTS = (
 
 def a_scene(name, target, **options):
     declared = tuple(Option(option, value) for option, value in options.items())
-    return ConfiguredScene(Offer(SceneSpec(name, f"{__name__}:{target}", "", options=declared), TOYS), options)
+    return ConfiguredScene(
+        Registration(SceneSpec(name, f"{__name__}:{target}", "", options=declared), TOYS, name), options
+    )
 
 
 def a_sampler(target):
-    return ConfiguredSampler(Offer(SamplerSpec("toy", f"{__name__}:{target}", ""), TOYS), {})
+    return ConfiguredSampler(Registration(SamplerSpec("toy", f"{__name__}:{target}", ""), TOYS, "toy"), {})
 
 
 def image(scene, sampler, count, size, *, crop=None, full=False, seed=0, **how):
@@ -223,7 +225,7 @@ def test_what_comes_with_an_image():
     assert metrics["samples"] == 6 * metrics["pixels_sampled"]
     assert {"points", "scene", "reference", "total"} <= set(rendered.seconds)
     assert all(seconds >= 0 for seconds in rendered.seconds.values())
-    assert rendered.plan.window == (3, 4, 10, 5)
+    assert rendered.plan.pixels.window == (3, 4, 10, 5)
 
 
 def test_the_reference_is_left_out_with_all_that_needs_it():

@@ -7,7 +7,7 @@ import pytest
 import samplekit
 from samplekit._builtin.scenes.disk import Disk
 from samplekit._builtin.scenes.gaussian import Gaussian
-from samplekit._integrate.threads import default_threads
+from samplekit._threads import default_threads
 from samplekit.quadrature import _pixel_means as pixel_means_module
 from samplekit.quadrature._pixel_means import Curves, pixel_means
 

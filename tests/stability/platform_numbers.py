@@ -15,7 +15,7 @@ if len(sys.argv) > 1:
 import numpy as np
 
 import samplekit
-from samplekit._chosen.scene import configured_scene
+from samplekit import scene as configured_scene
 from samplekit._registry import registry
 
 

@@ -9,8 +9,7 @@ from mpmath import mp, mpf
 
 import samplekit
 from samplekit import UsageError
-from samplekit._integrate.loop import UNIT_SQUARE
-from samplekit._integrate.samples import sample_values
+from samplekit._integrate.loop import unit_square
 from samplekit._registry import BUILTIN, registry
 from samplekit._stability.sweep import scenes_of
 from samplekit.testing import check_scene
@@ -28,7 +27,7 @@ MORE = [
 
 def values_at(text, points):
     """The scene at points float64[n, D] of the unit square."""
-    return sample_values(samplekit.scene(text), np.ascontiguousarray(points.T[None]), np.array(UNIT_SQUARE)[:, None])[0]
+    return samplekit.scene(text).values(np.ascontiguousarray(points.T[None]), unit_square(1))[0]
 
 
 def true_value(scene, name, point):

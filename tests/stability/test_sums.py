@@ -8,8 +8,7 @@ import pytest
 
 import samplekit
 from samplekit._bases.realizations import Realizations
-from samplekit._integrate.loop import UNIT_SQUARE, Estimator, Seconds
-from samplekit._integrate.samples import sample_values
+from samplekit._integrate.loop import integrate, mean_of_constant, unit_square
 from samplekit._stability.extended import ExtendedSums
 from samplekit.kernels._row_sums import row_sums
 from samplekit.kernels._sums import BLOCK, PairwiseSum
@@ -95,17 +94,16 @@ def test_blocks_are_added_in_the_one_order_whatever_the_tile():
     scene, sampler = samplekit.scene("gaussian"), samplekit.sampler("random")
     whole = samplekit.estimate(scene, sampler, 5000, realizations=7, seed=3)
     for rows in (1, 2, 5):
-        estimator = Estimator(scene, sampler, 5000, tile_bytes=rows * 8 * 2 * BLOCK)
-        boxes = np.repeat(np.array(UNIT_SQUARE)[:, None], 7, axis=1)
-        assert np.array_equal(estimator.means(Realizations.of_trials(0, 7, 3, scene.blocks), boxes, Seconds()), whole)
+        trials, tile_bytes = Realizations.of_trials(0, 7, 3, scene.blocks), rows * 8 * 2 * BLOCK
+        (means,) = integrate(scene, sampler, (5000,), trials, unit_square(7), tile_bytes=tile_bytes)
+        assert np.array_equal(means, whole)
 
 
 @pytest.mark.parametrize("count", [1, 2, 3, 1000, 1025, 4097, 2**20 - 1, 2**20 + 1])
 @pytest.mark.parametrize("value", [1.0, 1 / 3, 1e-30, 1e300])
 def test_the_mean_of_a_constant_is_that_constant_within_a_digit(count, value):
-    """Through the estimator, as pixels that are left out have it."""
-    estimator = Estimator(samplekit.scene("disk"), samplekit.sampler("random"), count)
-    mean = estimator.mean_of_constant(value)
+    """As pixels that are left out have it."""
+    mean = mean_of_constant(value, count)
     if value * count < 1.7e308:
         assert abs(Fraction(mean) - Fraction(value)) <= 10 * ROUNDOFF * Fraction(value)
     else:
@@ -118,8 +116,16 @@ def test_estimates_equal_exact_means_of_the_same_values(text, count):
     """All values of a set, one by one, summed as rational numbers."""
     scene, sampler = samplekit.scene(text), samplekit.sampler("random")
     trials = Realizations.of_trials(0, 1, 9, scene.blocks)
-    blocks = Estimator(scene, sampler, count).blocks(trials)
-    values = np.concatenate([sample_values(scene, tile, np.array(UNIT_SQUARE)[:, None])[0] for tile in blocks])
+    blocks = []
+    integrate(
+        scene,
+        sampler,
+        (count,),
+        trials,
+        unit_square(1),
+        observe=lambda tile, boxes: blocks.append(scene.values(tile, boxes)[0]),
+    )
+    values = np.concatenate(blocks)
     exact = Fraction(math.fsum(values)) / count
     estimate = Fraction(float(samplekit.estimate(scene, sampler, count, seed=9)[0]))
     assert values.size == count

@@ -5,11 +5,10 @@ import pytest
 
 import samplekit
 from samplekit._bases.realizations import Realizations
-from samplekit._integrate.loop import UNIT_SQUARE, Estimator, Seconds
+from samplekit._integrate.loop import integrate, unit_square
 from samplekit._metrics import metrics
 from samplekit._study.cells import lay_out
 from samplekit._study.jobs import Job, batch_of, gaps, split
-from samplekit._study.prefixes import prefix_means
 from samplekit._study.request import checked_request
 from samplekit._study.subjects import Subjects
 from samplekit._study.trials import BLURRED, ERROR, INVALID, PAIRS, PRODUCT, SQUARE, TRIALS, carry_out, seed_of
@@ -51,11 +50,11 @@ def test_images_have_seeds_of_their_own():
 def test_prefixes_are_the_estimates_of_their_own_sets():
     scene, sampler = samplekit.scene("gaussian"), samplekit.sampler("sobol+owen")
     realizations = Realizations.of_trials(0, 50, 1, scene.blocks)
-    boxes = np.repeat(np.array(UNIT_SQUARE)[:, None], 50, axis=1)
+    boxes = unit_square(50)
     counts = (1, 7, 1024, 2048, 2500, 4096)
-    found = prefix_means(scene, sampler, counts, realizations, boxes)
+    found = integrate(scene, sampler, counts, realizations, boxes)
     for row, count in zip(found, counts, strict=True):
-        own = Estimator(scene, sampler, count).means(realizations, boxes, Seconds())
+        (own,) = integrate(scene, sampler, (count,), realizations, boxes)
         assert row == pytest.approx(own, rel=1e-13)
 
 

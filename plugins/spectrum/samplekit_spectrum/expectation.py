@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit import Realizations, SamplekitError
-from samplekit._integrate.threads import check_threads
+from samplekit import Realizations, SamplekitError, check_threads
 from samplekit_spectrum.exponentials import add_sums
 from samplekit_spectrum.frequencies import Cube, Frequencies, Listed
 from samplekit_spectrum.moments import Moments

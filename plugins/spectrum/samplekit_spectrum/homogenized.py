@@ -7,42 +7,24 @@ of an estimate the sum of |f(m)|^2 E|S(m)|^2 (Pilleboue et al. 2015).
 from __future__ import annotations
 
 import threading
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit import ConfiguredSampler, Realizations
-from samplekit._bases.randomizer import RandomizedSampler
-from samplekit._builtin.randomizers.shift import Shift
+from samplekit import ConfiguredSampler, Realizations, randomizer
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
-class Homogenized(ConfiguredSampler):
-    """A sampler with its own randomizer, and behind it a shift; the same points as ``+shift`` where there is none."""
-
-    def __init__(self, sampler: ConfiguredSampler) -> None:
-        # Everything as the sampler has it, but for the points.
-        vars(self).update(vars(sampler))
-        self._inner = sampler
-        self._sampler = RandomizedSampler(self._sampler, Shift(), "shift")
-        self.text = f"{sampler.text}+shift"
-        self.spec = replace(sampler.spec, randomized=True, unbiased=True, promises=())
-
-    def fresh(self) -> ConfiguredSampler:
-        """With every realisation made afresh."""
-        inner = self._inner.fresh()
-        return self if inner is self._inner else Homogenized(inner)
-
-
-class _Reshifted(Homogenized):
+class _Reshifted(ConfiguredSampler):
     """Each set under several random shifts: realisation r is set r // shifts under the shift r."""
 
     def __init__(self, sampler: ConfiguredSampler, shifts: int) -> None:
-        super().__init__(sampler)
+        super().__init__(*sampler.followed_by("shift").parts)
+        self._inner = sampler
         self._shifts = shifts
+        self._shift = randomizer("shift")
         self._kept = threading.local()
 
     def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
@@ -53,7 +35,7 @@ class _Reshifted(Homogenized):
         first = int(numbers[0])
         sets = self._sets(first, int(numbers[-1]) + 1, realizations.seed, out.shape[1], count)
         out[:] = sets[numbers - first]
-        Shift().apply(out, realizations, ())
+        self._shift.apply(out, realizations)
 
     def _sets(self, first: int, stop: int, seed: int, dims: int, count: int) -> NDArray[np.float64]:
         """Sets first to stop; the last is kept, since the next ones asked for often begin with it."""
@@ -70,11 +52,11 @@ class _Reshifted(Homogenized):
 
 def is_homogeneous(sampler: ConfiguredSampler) -> bool:
     """Whether every shift of the sampler's sets is as likely: independent points, and what has just been shifted."""
-    return sampler.text.endswith("+shift") or (sampler.text == "random" and sampler.plugin.name == "samplekit")
+    return sampler.text.endswith("+shift") or (sampler.text == "random" and sampler.plugin.builtin)
 
 
 def homogenized(sampler: ConfiguredSampler, shifts: int = 1) -> ConfiguredSampler:
     """The sampler followed by a random shift, unless that changes nothing; by so many shifts of each set in a row."""
     if shifts > 1:
         return _Reshifted(sampler, shifts)
-    return sampler if is_homogeneous(sampler) else Homogenized(sampler)
+    return sampler if is_homogeneous(sampler) else sampler.followed_by("shift")

@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit import Realizations, SamplekitError
-from samplekit._integrate.loop import UNIT_SQUARE, Estimator, Seconds
-from samplekit._integrate.threads import check_threads
+from samplekit import SamplekitError, estimate
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -25,7 +22,6 @@ TRIALS = 40_000
 PRECISION = 0.008
 """Relative standard error of a variance of 40000 normal estimates, and a little more."""
 _MOST = 32
-_BLOCK = 256
 ZERO = 1e-13
 """Relative to the root mean square of the integrand, deviations that rounding explains."""
 
@@ -58,8 +54,6 @@ def measure(
     ``trials`` None: 40000, and more where estimates have heavy tails, so that the variance is known within 0.8 %.
     ``shifts``: so many trials in a row are of one set, taken whole; a divisor of ``trials``.
     """
-    sampler.check(count, scene.dims)
-    sampler.prepare(count, scene.dims)
     wanted = TRIALS if trials is None else trials
     estimates = _estimates(scene, sampler, count, range(wanted), seed, threads, progress)
     found = summarize(estimates, exact, shifts)
@@ -82,26 +76,16 @@ def _estimates(
     threads: int | None,
     progress: Progress,
 ) -> NDArray[np.float64]:
-    estimates = np.empty(len(numbers))
-    starts = range(0, len(numbers), _BLOCK)
-
-    def block(start: int) -> int:
-        stop = min(start + _BLOCK, len(numbers))
-        boxes = np.repeat(np.array(UNIT_SQUARE)[:, None], stop - start, axis=1)
-        estimator = Estimator(scene, sampler, count)
-        trials = Realizations.of_trials(numbers[start], numbers[0] + stop, seed)
-        estimates[start:stop] = estimator.means(trials, boxes, Seconds())
-        return stop - start
-
-    done = 0
-    with ThreadPoolExecutor(min(check_threads(threads), len(starts))) as pool:
-        try:
-            for finished in pool.map(block, starts):
-                done += finished
-                progress(done, len(numbers))
-        except BaseException:
-            pool.shutdown(wait=False, cancel_futures=True)
-            raise
+    estimates = estimate(
+        scene,
+        sampler,
+        count,
+        realizations=len(numbers),
+        first=numbers.start,
+        seed=seed,
+        threads=threads,
+        progress=progress,
+    )
     if not np.isfinite(estimates).all():
         raise SamplekitError(f"{scene.text} with {sampler.text} gave estimates that are not finite")
     return estimates

@@ -11,9 +11,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import samplekit
 from samplekit import ConfiguredSampler, ConfiguredScene, check_seed
-from samplekit._chosen.sampler import configured_sampler
-from samplekit._chosen.scene import configured_scene
 from samplekit_spectrum.homogenized import homogenized, is_homogeneous
 from samplekit_spectrum.integrands import integrand_of
 from samplekit_spectrum.measurement import TRIALS, ZERO, Measurement, measure
@@ -101,8 +100,8 @@ def predict(
     >>> predict("jittered", "disk", 16, trials=4000).verdict
     'agrees'
     """
-    chosen = (configured_sampler(sampler) if isinstance(sampler, str) else sampler).fresh()
-    integrand_scene = configured_scene(scene) if isinstance(scene, str) else scene
+    chosen = samplekit.sampler(sampler).fresh()
+    integrand_scene = samplekit.scene(scene)
     integrand = integrand_of(integrand_scene)
     chosen.check(count, integrand_scene.dims)
     check_settings(trials, realizations, max_frequency, seed)

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+import samplekit
 from samplekit import ConfiguredSampler, UsageError, check_seed
-from samplekit._chosen.sampler import configured_sampler
 from samplekit_spectrum.bias import Bias, find_bias
 from samplekit_spectrum.expectation import View, expectations
 from samplekit_spectrum.frequencies import Cube, Frequencies
@@ -215,7 +215,7 @@ def powers(
     keep_interrupted: bool = False,
 ) -> list[Spectrum]:
     """As :func:`power`, for several projections of the same sets; if wanted, of what is done at an interrupt."""
-    chosen = configured_sampler(sampler) if isinstance(sampler, str) else sampler
+    chosen = samplekit.sampler(sampler)
     source_sampler = homogenized(chosen) if homogenize else chosen
     source_sampler = source_sampler.fresh()
     axes, dims = axes_of(projects, dims)

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit._chosen.sampler import configured_sampler
+import samplekit
 from samplekit_spectrum.allocation import PILOT, Stratum, mean_and_error, refine
 from samplekit_spectrum.dual_lattice import variance_on_grid
 from samplekit_spectrum.expectation import expectations
@@ -74,7 +74,7 @@ def has_fixed_power(sampler: ConfiguredSampler) -> bool:
     if not sampler.spec.randomized:
         return True
     return (
-        sampler.text.endswith("+shift") and not configured_sampler(sampler.text.removesuffix("+shift")).spec.randomized
+        sampler.text.endswith("+shift") and not samplekit.sampler(sampler.text.removesuffix("+shift")).spec.randomized
     )
 
 

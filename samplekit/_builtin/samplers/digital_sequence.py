@@ -26,9 +26,13 @@ from samplekit.kernels import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
-    from samplekit import Fill, Realizations
+    from samplekit import Realizations
+
+    Fill = Callable[[NDArray[np.float64], Realizations, int, int], None]
 
 _U32 = np.uint32
 TABLE = 1024

@@ -17,8 +17,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit import Sampler, UsageError
-from samplekit._parsing import parse_choice
+from samplekit import Sampler, UsageError, parse_choice
 from samplekit.files import read_points
 
 if TYPE_CHECKING:

@@ -22,9 +22,13 @@ from samplekit import Net, Sampler
 from samplekit.kernels import PERMUTED, PLAIN, SHIFTED, fill_mirrored, fill_nested, primes
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from numpy.typing import NDArray
 
-    from samplekit import Fill, Realizations, SamplerSpec
+    from samplekit import Realizations, SamplerSpec
+
+    Fill = Callable[[NDArray[np.float64], Realizations, int, int], None]
 
 _SCRAMBLE = np.uint64(0x9159015A3070DD17)
 LARGEST_SCRAMBLED_INDEX = 2**32 - 1

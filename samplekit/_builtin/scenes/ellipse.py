@@ -90,7 +90,7 @@ class Ellipse(Scene):
         cx: float = 0.4523,
         cy: float = 0.5317,
     ) -> None:
-        from samplekit._builtin.scenes.step import direction
+        from samplekit.kernels import direction
 
         for name, value, least, most in (
             ("radius", radius, _SMALLEST, _LARGEST),

@@ -11,9 +11,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit import ConfiguredScene, Scene, UsageError
-from samplekit._chosen.scene import configured_scene
-from samplekit._integrate.samples import sample_values
+import samplekit
+from samplekit import Scene, UsageError
 from samplekit.kernels import row_sums
 
 if TYPE_CHECKING:
@@ -47,7 +46,7 @@ class Offset(Scene):
             raise UsageError(f"offset: pedestal={pedestal} must be from {-LARGEST:g} to {LARGEST:g}")
         if scene.partition(":")[0].rpartition("/")[2] == "offset":
             raise UsageError(f"offset: scene={scene}: two pedestals are one, their sum")
-        self.scene: ConfiguredScene = configured_scene(re.sub(r"\+(?=[A-Za-z])", ",", scene))
+        self.scene = samplekit.scene(re.sub(r"\+(?=[A-Za-z])", ",", scene))
         if self.scene.at_centre:
             raise UsageError(
                 f"offset: scene={scene}: write pixel-filter=center for the whole, not for the scene within"
@@ -69,11 +68,11 @@ class Offset(Scene):
 
     def sums(self, tile: Array, boxes: Array, out: Array) -> None:
         """Sum the rounded values over each pixel's samples: see :meth:`Scene.sums`."""
-        row_sums(sample_values(self.scene, tile, boxes) + self.pedestal, out)
+        row_sums(self.scene.values(tile, boxes) + self.pedestal, out)
 
     def parts(self, tile: Array, boxes: Array) -> Sequence[Array]:
         """The scene's own values and the pedestal: their sum before it is rounded."""
-        values = sample_values(self.scene, tile, boxes)
+        values = self.scene.values(tile, boxes)
         return values, np.full_like(values, self.pedestal)
 
     def exact(self, x_edges: Array, y_edges: Array) -> Array:
@@ -84,7 +83,7 @@ class Offset(Scene):
 
     def exact_at(self, x: Array, y: Array) -> Array:
         """The scene's means at points on the pedestal, rounded once: float64[h, w]."""
-        return self.pedestal + self.scene.exact_at(x, y)
+        return self.pedestal + self.scene.reference_at(x, y).image
 
     def constant(self, x_edges: Array, y_edges: Array) -> Array:
         """Where the scene is constant it is so on the pedestal as well."""

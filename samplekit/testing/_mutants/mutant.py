@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 
 from samplekit._bases.sampler import Sampler
-from samplekit._chosen.sampler import configured_sampler
+from samplekit._configured.sampler import sampler as configured_sampler
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from samplekit._chosen.sampler import configured_sampler
+from samplekit._configured.sampler import sampler as configured_sampler
 from samplekit._specs import LatinStrata, MinimumDistance, Net
 from samplekit.testing._mutants.mutant import ALMOST_ONE, Mutant, indices
 

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from samplekit._chosen.sampler import configured_sampler
+from samplekit import sampler as configured_sampler
 from samplekit._errors import UsageError
 from samplekit.files._pointsets.picture import make_picture
 

@@ -44,8 +44,8 @@ def command(doors: Doors, seed: str) -> Case:
 def string(doors: Doors, seed: str) -> Case:
     """A sampler, scene or list as text, read alone, and completed."""
     from samplekit import _parsing as parsing
-    from samplekit._chosen.sampler import configured_sampler
-    from samplekit._chosen.scene import configured_scene
+    from samplekit import sampler as configured_sampler
+    from samplekit import scene as configured_scene
     from samplekit._errors import UsageError
     from samplekit.commands._completion import complete_sampler, complete_scene
 

@@ -61,18 +61,16 @@ def predict(
     from samplekit.commands import announce_compilation
 
     announce_compilation()
-    from samplekit._chosen.sampler import configured_sampler
-    from samplekit._chosen.scene import configured_scene
-    from samplekit._integrate.threads import check_threads
-    from samplekit._parsing import parse_count, parse_counts, parse_seed
-    from samplekit.commands import Progress
+    import samplekit
+    from samplekit import check_threads
+    from samplekit.commands import Progress, parse_count, parse_counts, parse_seed
     from samplekit_spectrum.homogenized import is_homogeneous
     from samplekit_spectrum.integrands import integrand_of
     from samplekit_spectrum.prediction import check_settings
     from samplekit_spectrum.prediction import predict as predict_one
 
     counts = parse_counts(count, "count")
-    chosen, integrated = configured_sampler(sampler).fresh(), configured_scene(scene)
+    chosen, integrated = samplekit.sampler(sampler).fresh(), samplekit.scene(scene)
     for number in counts:
         # Before anything is computed: the last of a list would otherwise fail after hours.
         chosen.check(number, integrated.dims)

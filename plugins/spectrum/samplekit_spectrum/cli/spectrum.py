@@ -86,9 +86,8 @@ def spectrum(
     announce_compilation()
     import time
 
-    from samplekit._chosen.sampler import configured_sampler
-    from samplekit._parsing import parse_count, parse_seed
-    from samplekit.commands import Progress
+    import samplekit
+    from samplekit.commands import Progress, parse_count, parse_seed
     from samplekit_spectrum.cli.values import parse_positive, parse_projections, parse_vectors
     from samplekit_spectrum.frequencies import Listed
     from samplekit_spectrum.homogenized import homogenized
@@ -101,7 +100,7 @@ def spectrum(
     projects = parse_projections(project, size)
     listed = parse_vectors(frequencies) if frequencies else None
     white = parse_positive(scale, "scale") if scale else None
-    chosen = configured_sampler(sampler)
+    chosen = samplekit.sampler(sampler)
     width = len(projects[0]) if projects[0] is not None else size or 2
     name = homogenized(chosen).text if homogenize else chosen.text
     stem = check_stem(output, f"spectrum-{name}-{number}", endings(width, len(projects), listed=listed is not None))
@@ -172,7 +171,7 @@ def _describe(spectrum: Spectrum, homogenize: bool, project: str, bias: list[Any
     """How the spectrum was made; the same for the same command, so no times and no paths."""
     from importlib.metadata import version
 
-    from samplekit._provenance import versions
+    from samplekit import versions
     from samplekit_spectrum.frequencies import Cube
 
     words = [f"samplekit spectrum --sampler {chosen.text} --count {spectrum.count}"]
@@ -197,7 +196,7 @@ def _describe(spectrum: Spectrum, homogenize: bool, project: str, bias: list[Any
 def _of_image(image: str, output: str, as_json: bool) -> int:
     from pathlib import Path
 
-    from samplekit._provenance import versions
+    from samplekit import versions
     from samplekit_spectrum.error_image import error_spectrum, read_error
     from samplekit_spectrum.output import MAPS, RADIAL, check_stem, write_error_spectrum
     from samplekit_spectrum.tables import error_lines, finite, radial_json

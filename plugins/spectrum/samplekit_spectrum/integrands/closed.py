@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from samplekit._parsing import parse_choice
 from samplekit_spectrum.integrands.disk import disk
 from samplekit_spectrum.integrands.integrand import Integrand
 from samplekit_spectrum.integrands.products import bilinear, checker, gaussian
@@ -13,9 +12,9 @@ from samplekit_spectrum.integrands.step import step
 from samplekit_spectrum.integrands.zoneplate import zoneplate
 
 if TYPE_CHECKING:
-    from samplekit import ConfiguredScene, OptionValue
+    from samplekit import ConfiguredScene
 
-Form = Callable[[str, "Mapping[str, OptionValue]"], Integrand | None]
+Form = Callable[[str, "Mapping[str, Any]"], Integrand | None]
 
 FORMS: dict[str, Form] = {
     "disk": disk,
@@ -32,4 +31,4 @@ def closed_form(scene: ConfiguredScene) -> Integrand | None:
     form = FORMS.get(scene.spec.name)
     if form is None:
         return None
-    return form(scene.text, scene.spec.parse_options(parse_choice(scene.text, "scene").options))
+    return form(scene.text, scene.options)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from samplekit.kernels import direction
 from samplekit_spectrum.integrands.integrand import Integrand
 
 if TYPE_CHECKING:
@@ -23,15 +24,13 @@ def step(name: str, options: Mapping[str, Any]) -> Integrand:
     Gauss's theorem for m exp(-2 pi i m.x): f(m) = i / (2 pi |m|^2) times the sum over the polygon's edges of
     (m.n) L sinc(m.t L) exp(-2 pi i m.c), with outward normal n, direction t, length L and middle c.
     """
-    from samplekit._builtin.scenes.step import Step
-
-    # The scene's own line, rounded as it rounds it.
-    scene = Step(float(options["angle"]), float(options["offset"]))
-    corners = _cut(scene.cosine, scene.sine, scene.offset)
+    # The line of the scene, rounded as the scene rounds it.
+    cosine, sine = direction(float(options["angle"]))
+    corners = _cut(cosine, sine, float(options["offset"]))
     area = 0.5 * math.fsum(
         x0 * y1 - x1 * y0 for (x0, y0), (x1, y1) in zip(corners, corners[1:] + corners[:1], strict=True)
     )
-    straight = scene.cosine == 0.0 or scene.sine == 0.0
+    straight = cosine == 0.0 or sine == 0.0
 
     def power(mx: NDArray[Any], my: NDArray[Any]) -> NDArray[np.float64]:
         x, y = np.asarray(mx, np.float64), np.asarray(my, np.float64)

@@ -1,7 +1,7 @@
-"""References of scenes that give values alone: adaptive quadrature over the pixel, Gauss rules over all else.
+"""References of scenes without a closed form: adaptive quadrature over the pixel, Gauss rules over all else.
 
-Deterministic, and independent of any sampler. What is reached is told: ``Reference.error`` is what two rules differ by,
-summed over a pixel's cells, in the worst pixel: an estimate from above, no proof. A detail that falls between all
+The result is deterministic and independent of any sampler. ``Reference.error`` is the difference of two rules, summed
+over the cells of a pixel, in the worst pixel: an estimate from above, not a proof. A detail that falls between all
 nodes (33 in a pixel, which is never taken wider than 1/64) stays unseen.
 """
 
@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from samplekit._bases.reference import Reference
 from samplekit._errors import UsageError
-from samplekit._integrate.reference import Reference
 from samplekit.quadrature._pixel_means import pixel_means
 
 if TYPE_CHECKING:
@@ -36,15 +36,17 @@ _LARGEST_CELL = 1.0 / 64.0
 _POINTS_AT_ONCE = 2**17
 
 
-def numerical_means(scene: Scene, x_edges: Array, y_edges: Array) -> Reference:
+def numerical_means(scene: Scene, x_edges: Array, y_edges: Array, known: Array | None = None) -> Reference:
     """Integrate a scene over each pixel and all its other dimensions.
+
+    ``known`` float64[h, w]: the means that are known already, NaN elsewhere; None: no mean is known.
 
     Raises
     ------
     UsageError
         With so many pixels and dimensions it would take too long.
     """
-    known = scene.constant(x_edges, y_edges)
+    known = np.full((y_edges.size - 1, x_edges.size - 1), np.nan) if known is None else known
     pixels = int(np.count_nonzero(np.isnan(known)))
     rough, fine = _rules(scene, pixels * _LEAST_PER_PIXEL)
     plane = fine[1].size == 1

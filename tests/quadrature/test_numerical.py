@@ -11,9 +11,9 @@ from samplekit import Scene, UsageError
 from samplekit._builtin.scenes.depth_of_field import DepthOfField
 from samplekit._builtin.scenes.disk import Disk
 from samplekit._builtin.scenes.zoneplate import ZonePlate
-from samplekit._integrate.numerical import numerical_means, numerical_means_at
-from samplekit._integrate.threads import asking_for
 from samplekit._provenance import describe
+from samplekit._threads import requesting
+from samplekit.quadrature._numerical import numerical_means, numerical_means_at
 
 
 class PlainDisk(Scene):
@@ -123,7 +123,7 @@ def test_metrics_and_metadata_say_that_it_is_no_exact_reference(stranger):
 
 def test_it_is_the_same_on_any_number_of_processors():
     edges = np.arange(65) / 64
-    with asking_for(3):
+    with requesting(3):
         many = numerical_means(Rings(), edges, edges).image
-    with asking_for(1):
+    with requesting(1):
         np.testing.assert_array_equal(numerical_means(Rings(), edges, edges).image, many)

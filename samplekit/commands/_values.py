@@ -1,59 +1,14 @@
-"""The command line's small languages: ``NAME[:option=value,...][+RANDOMIZER]``, counts, sizes and lists."""
+"""Values from the text of the command line: counts, lists and ranges of counts, numbers, seeds, sizes, crops."""
 
 from __future__ import annotations
 
 import math
-import operator
 import re
-from collections.abc import Iterable
-from dataclasses import dataclass, field
-from typing import SupportsIndex
 
+from samplekit._checks import LARGEST_SEED, check_crop
 from samplekit._errors import UsageError
-from samplekit._quoting import quoted
 
-LARGEST_SEED = 2**64 - 1
-LARGEST_SIDE = 2**31
-"""Of an image, in pixels."""
 _MOST_COUNTS = 1000
-
-
-@dataclass(frozen=True)
-class Choice:
-    """A name with the options that were given, as text, and the name behind a plus sign."""
-
-    name: str
-    options: dict[str, str] = field(default_factory=dict)
-    randomizer: str | None = None
-
-
-def parse_choice(text: str, kind: str) -> Choice:
-    """Read ``NAME[:option=value,...][+RANDOMIZER]``; only a sampler takes a randomizer.
-
-    Raises
-    ------
-    UsageError
-        The text does not have this form.
-    """
-    chosen, *randomizers = re.split(r"\+(?=[A-Za-z])", text) if kind == "sampler" else [text]
-    if any("." in randomizer.rpartition("/")[2] for randomizer in randomizers):
-        raise UsageError(f"{kind} {text!r}: a plus sign before a letter ends a value: expected +RANDOMIZER behind it")
-    if len(randomizers) > 1:
-        raise UsageError(f"{kind} {text!r}: one randomizer at most")
-    name, colon, rest = chosen.partition(":")
-    options: dict[str, str] = {}
-    for item in rest.split(",") if colon else []:
-        option, equals, value = item.partition("=")
-        if not equals or not option.strip() or not value.strip():
-            hint = ": a comma ends a value" if options else ""
-            raise UsageError(f"{kind} {text!r}: expected NAME:option=value,... but found {item!r}{hint}")
-        if option.strip() in options:
-            raise UsageError(f"{kind} {text!r}: option {option.strip()!r} is given twice")
-        options[option.strip()] = value.strip()
-    for chosen_name in (name, *randomizers):
-        if not re.fullmatch(r"([A-Za-z0-9_.-]+/)?[A-Za-z0-9_.-]+", chosen_name):
-            raise UsageError(f"{kind} {text!r}: expected NAME or NAME:option=value,...")
-    return Choice(name, options, randomizers[0] if randomizers else None)
 
 
 def parse_count(text: str, what: str) -> int:
@@ -139,19 +94,6 @@ def parse_number(text: str, what: str, expected: str) -> float:
     return value
 
 
-def check_positive(what: str, value: object) -> int:
-    """The value as an int.
-
-    Raises
-    ------
-    UsageError
-        It is not an integer of at least 1.
-    """
-    if isinstance(value, bool) or not isinstance(value, SupportsIndex) or operator.index(value) < 1:
-        raise UsageError(f"{what} {value}: expected a positive integer")
-    return operator.index(value)
-
-
 def parse_seed(text: str) -> int:
     """Read a seed.
 
@@ -193,55 +135,3 @@ def parse_crop(text: str, size: tuple[int, int]) -> tuple[int, int, int, int]:
         raise UsageError(f"crop {text}: expected X,Y,W,H in pixels, such as 10,20,64,64")
     x, y, w, h = (int(group) for group in match.groups())
     return check_crop((x, y, w, h), size)
-
-
-def check_size(size: tuple[int, int]) -> tuple[int, int]:
-    """Width and height, as Python's integers.
-
-    Raises
-    ------
-    UsageError
-        They are not two integers from 1 to 2^31.
-    """
-    sides = _integers(size, 2)
-    if sides is None or not all(1 <= side <= LARGEST_SIDE for side in sides):
-        raise UsageError(f"size {_shown(size)}: expected width and height from 1 to {LARGEST_SIDE}")
-    return sides[0], sides[1]
-
-
-def _integers(values: object, number: int) -> tuple[int, ...] | None:
-    """So many integers, or None if they are not."""
-    if not isinstance(values, Iterable) or isinstance(values, (str, bytes)):
-        return None
-    listed = tuple(values)
-    if len(listed) != number or any(isinstance(v, bool) or not isinstance(v, SupportsIndex) for v in listed):
-        return None
-    try:
-        return tuple(operator.index(value) for value in listed)
-    except TypeError:
-        return None
-
-
-def _shown(values: object) -> str:
-    return "x".join(map(str, values)) if isinstance(values, (tuple, list)) else quoted(values)
-
-
-def check_crop(crop: tuple[int, int, int, int], size: tuple[int, int]) -> tuple[int, int, int, int]:
-    """The crop as Python's integers, if it is a rectangle inside the image.
-
-    Raises
-    ------
-    UsageError
-        It is empty or not inside, or not four integers.
-    """
-    numbers = _integers(crop, 4)
-    if numbers is None:
-        raise UsageError(
-            f"crop {quoted(crop)}: expected (x, y, width, height) inside the image of {size[0]}x{size[1]} pixels"
-        )
-    x, y, w, h = numbers
-    if min(x, y) < 0 or min(w, h) < 1 or x + w > size[0] or y + h > size[1]:
-        raise UsageError(
-            f"crop {x},{y},{w},{h}: expected a rectangle X,Y,W,H inside the image of {size[0]}x{size[1]} pixels"
-        )
-    return x, y, w, h

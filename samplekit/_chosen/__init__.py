@@ -1,1 +1,0 @@
-"""Samplers and scenes as a user chose them: options checked, faults of plugins named."""
