@@ -45,6 +45,9 @@ from ._specs.counts import allows as allows
 from ._specs.counts import describe as describe
 from ._specs.counts import fibonacci_numbers as fibonacci_numbers
 from ._specs.counts import grid_sides as grid_sides
+from ._stability.sweep import Stability as Stability
+from ._stability.sweep import stability as stability
+from ._study.compare import InterruptedStudy as InterruptedStudy
 from ._study.compare import compare as compare
 from ._study.results import Results as Results
 from ._threads import check_threads as check_threads

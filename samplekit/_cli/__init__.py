@@ -19,8 +19,7 @@ from samplekit._cli.plugin_commands import PluginGroup
 from samplekit._cli.single_options import SingleOptionsCommand
 from samplekit._errors import SamplekitError, UsageError
 from samplekit.commands import _interrupts as interrupts
-
-DONE, FAILED, WRONG_USE, CHECK_FAILED, INTERRUPTED = 0, 1, 2, 3, 130
+from samplekit.commands._statuses import DONE, FAILED, INTERRUPTED, WRONG_USE
 
 _LONGEST_WORD, _LONGEST_MESSAGE = 300, 6000
 """Letters; what somebody pasted by mistake is not shown whole."""

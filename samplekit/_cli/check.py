@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from samplekit.commands._completion import complete_sampler, complete_scene
-from samplekit.commands._options import JsonOption
+from samplekit.commands import CHECK_FAILED, JsonOption, complete_sampler, complete_scene
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -16,7 +15,6 @@ if TYPE_CHECKING:
     from samplekit.testing._result import Outcome
 
 SCHEMA = "samplekit.check/1"
-_CHECK_FAILED = 3
 
 
 def _complete(incomplete: str) -> list[tuple[str, str]]:
@@ -83,7 +81,7 @@ def check(
         from samplekit.testing._html import rate_line
 
         typer.echo(f"{len(runs) - len(failed)} of {len(runs)} conform; {rate_line(len(runs))}")
-    return _CHECK_FAILED if failed else 0
+    return CHECK_FAILED if failed else 0
 
 
 def _all_names() -> list[str]:

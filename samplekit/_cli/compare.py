@@ -2,22 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from samplekit.commands._completion import complete_sampler, complete_scene
-from samplekit.commands._options import JsonOption, SeedOption
+from samplekit.commands import INTERRUPTED, JsonOption, SeedOption, complete_sampler, complete_scene
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
-    from samplekit._study.request import Request
-    from samplekit._study.results import Results
-    from samplekit._study.study import Study
-    from samplekit._study.subjects import Subjects
-
-INTERRUPTED = 130
+    from samplekit import Results
 
 
 def compare(
@@ -49,7 +41,7 @@ def compare(
     ] = "128",
     seed: SeedOption = "0",
     output: Annotated[str, typer.Option("--output", "-o", metavar="DIR", help="A folder for all files.")] = "",
-    resume: Annotated[bool, typer.Option("--resume", help="Go on with the study in that folder.")] = False,
+    resume: Annotated[bool, typer.Option("--resume", help="Continue the study in that folder.")] = False,
     threads: Annotated[
         str, typer.Option("--threads", "-t", metavar="T", help="Threads for errors; by default one a processor.")
     ] = "",
@@ -59,7 +51,7 @@ def compare(
     dask: Annotated[
         str, typer.Option("--dask", metavar="ADDRESS", help="A Dask scheduler whose workers compute the errors.")
     ] = "",
-    no_time: Annotated[bool, typer.Option("--no-time", help="Take no run times.")] = False,
+    no_time: Annotated[bool, typer.Option("--no-time", help="Measure no run times.")] = False,
     budget: Annotated[
         str,
         typer.Option(
@@ -69,13 +61,14 @@ def compare(
         ),
     ] = "",
     cost: Annotated[
-        str, typer.Option("--cost", metavar="NS", help="Nanoseconds that each sample costs besides.")
+        str,
+        typer.Option("--cost", metavar="NS", help="Extra cost per sample in nanoseconds, as if a renderer shaded it."),
     ] = "0",
     target: Annotated[
-        str, typer.Option("--target", metavar="MSE", help="The mean squared error whose price is told.")
+        str, typer.Option("--target", metavar="MSE", help="Target mean squared error for the time-to-target table.")
     ] = "",
     fit: Annotated[
-        str, typer.Option("--fit", metavar="N..M", help="Counts that slopes are fitted to; by default all.")
+        str, typer.Option("--fit", metavar="N..M", help="Range of counts that slopes are fitted to; by default all.")
     ] = "",
     json: JsonOption = False,
 ) -> int:
@@ -86,73 +79,48 @@ def compare(
 
     Example: samplekit compare -s random -s jittered --scene disk --spp 2^4..2^10 --trials 1000 --size 1
     """
-    from pathlib import Path
-
-    from samplekit._study.manner import Manner
-    from samplekit.commands import parse_count, parse_counts, parse_number, parse_range, parse_seed, parse_size
-
-    counts, trial_count, width_height = parse_counts(spp, "spp"), parse_count(trials, "trials"), parse_size(size)
-    start = parse_seed(seed)
-    manner = Manner(
-        threads=parse_count(threads, "threads") if threads else None,
-        processes=parse_count(processes, "processes"),
-        dask=dask or None,
-        times=not no_time,
-        budget=parse_number(budget, "budget", "seconds, such as 10") if budget else None,
-        cost=parse_number(cost, "cost", "nanoseconds, such as 100"),
-        target=parse_number(target, "target", "a mean squared error, such as 1e-4") if target else None,
-        fitted=parse_range(fit, "fit") if fit else None,
+    from samplekit import InterruptedStudy
+    from samplekit import compare as run_study
+    from samplekit.commands import (
+        Stages,
+        announce_compilation,
+        parse_count,
+        parse_counts,
+        parse_number,
+        parse_range,
+        parse_seed,
+        parse_size,
     )
-    from samplekit.commands._notices import announce_compilation
 
+    options: dict[str, Any] = {
+        "trials": parse_count(trials, "trials"),
+        "size": parse_size(size),
+        "seed": parse_seed(seed),
+        "threads": parse_count(threads, "threads") if threads else None,
+        "processes": parse_count(processes, "processes"),
+        "dask": dask or None,
+        "times": not no_time,
+        "budget": parse_number(budget, "budget", "seconds, such as 10") if budget else None,
+        "cost": parse_number(cost, "cost", "nanoseconds, such as 100"),
+        "target": parse_number(target, "target", "a mean squared error, such as 1e-4") if target else None,
+        "fit": parse_range(fit, "fit") if fit else None,
+        "output": output or None,
+        "resume": resume,
+    }
+    counts = parse_counts(spp, "spp")
     announce_compilation()
-    from samplekit._study.request import checked_request
-    from samplekit._study.study import Study
-    from samplekit._study.subjects import Subjects
-
-    subjects = Subjects()
-    request = checked_request(
-        [subjects.scene(scene).text for scene in scenes],
-        [subjects.studied(sampler, width_height).text for sampler in samplers],
-        counts,
-        trial_count,
-        width_height,
-        start,
-    )
-    folder = Path(output) if output else None
-    with Study(request, manner, subjects, folder, resume=resume) as study:
-        interrupted = _run(study)
-        results = study.results()
-        if folder is not None:
-            results = _write(results, request, subjects, folder, manner.threads)
-    _report(results, folder, json)
-    if interrupted:
-        return INTERRUPTED
+    with Stages() as progress:
+        try:
+            results = run_study(samplers, scenes, counts, progress=progress, **options)
+        except InterruptedStudy as interrupt:
+            typer.echo("samplekit: interrupted: this is what was done", err=True)
+            _report(interrupt.results, output, json)
+            return INTERRUPTED
+    _report(results, output, json)
     return _invalid(results, json)
 
 
-def _run(study: Study) -> bool:
-    """Run it with a bar for each stage; whether it was interrupted."""
-    from samplekit.commands._progress import Stages
-
-    with Stages() as progress:
-        try:
-            study.run(progress)
-        except KeyboardInterrupt:
-            typer.echo("samplekit: interrupted: this is what was done", err=True)
-            return True
-    return False
-
-
-def _write(results: Results, request: Request, subjects: Subjects, folder: Path, threads: int | None) -> Results:
-    from samplekit._study.outputs import write_outputs
-    from samplekit.commands._progress import Progress
-
-    with Progress("writing images") as progress:
-        return write_outputs(results, request, subjects, folder, threads, progress)
-
-
-def _report(results: Results, folder: Path | None, as_json: bool) -> None:
+def _report(results: Results, output: str, as_json: bool) -> None:
     from samplekit._cli.comparison import left_out_lines, lines
 
     for line in left_out_lines(results):
@@ -166,8 +134,8 @@ def _report(results: Results, folder: Path | None, as_json: bool) -> None:
         return
     for line in lines(results):
         typer.echo(line)
-    if folder is not None:
-        typer.echo(f"wrote {folder}")
+    if output:
+        typer.echo(f"wrote {output}")
 
 
 def _invalid(results: Results, as_json: bool) -> int:

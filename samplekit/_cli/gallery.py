@@ -8,7 +8,7 @@ import typer
 
 from samplekit.commands._options import JsonOption
 
-SCHEMA = "samplekit._gallery/1"
+SCHEMA = "samplekit.gallery/1"
 
 
 def gallery(

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
-from samplekit.commands._completion import complete_sampler, complete_scene
-from samplekit.commands._options import JsonOption, SeedOption
-
-_CHECK_FAILED = 3
+from samplekit.commands import CHECK_FAILED, JsonOption, SeedOption, complete_sampler, complete_scene
 
 
 def stability(
@@ -53,38 +49,27 @@ def stability(
 
     Example: samplekit stability --scene gaussian --sampler sobol+owen
     """
-    from samplekit._errors import UsageError
-    from samplekit.commands import parse_count, parse_counts, parse_seed
-    from samplekit.commands._notices import announce_compilation
-    from samplekit.commands._progress import Progress
+    from samplekit import stability as sweep
+    from samplekit.commands import Progress, announce_compilation, parse_count, parse_counts, parse_seed
 
-    number, start = parse_count(realizations, "realizations"), parse_seed(seed)
-    counted = parse_counts(counts, "count")
-    folder = Path(output) if output else None
-    if folder is not None and not folder.is_dir():
-        raise UsageError(f"--output {output}: there is no such folder")
+    chosen = {"samplers": samplers} if samplers else {}
+    number, start, counted = parse_count(realizations, "realizations"), parse_seed(seed), parse_counts(counts, "count")
     announce_compilation()
-    from samplekit._stability import report
-    from samplekit._stability.sweep import SAMPLERS, scenes_of, sweep
-
-    chosen = scenes_of(list(dict.fromkeys(scenes or ())))
     with Progress("sweeping") as progress:
-        cells = sweep(
-            chosen,
-            list(dict.fromkeys(samplers or SAMPLERS)),
-            counted,
+        swept = sweep(
+            scenes or (),
+            counts=counted,
             realizations=number,
             seed=start,
+            output=output or None,
             progress=progress,
+            **chosen,
         )
-    files = report.write(folder, cells, number, start) if folder else []
     if json:
         from json import dumps
 
-        typer.echo(dumps(report.as_json(cells, number, start, files), allow_nan=False))
+        typer.echo(dumps(swept.as_json(), allow_nan=False))
     else:
-        for line in report.table(cells):
+        for line in [*swept.table(), *(f"wrote {file}" for file in swept.files)]:
             typer.echo(line)
-        for file in files:
-            typer.echo(f"wrote {file}")
-    return _CHECK_FAILED if any(cell.verdict.kind == "wrong" for cell in cells) else 0
+    return CHECK_FAILED if swept.wrong else 0

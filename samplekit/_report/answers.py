@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from samplekit._report.wording import counted, number, seconds
+from samplekit._study.sentences import statements
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -38,24 +39,18 @@ class Answer:
     budgets: list[Budget]
 
 
-def arranged(results: Results) -> tuple[list[Answer], list[str]]:
-    """The answers scene by scene, and the sentences that are about no single scene."""
-    general = []
-    lead: dict[str, list[str]] = {scene: [] for scene in results.scenes}
-    details: dict[str, list[str]] = {scene: [] for scene in results.scenes}
-    for sentence in results.sentences:
-        for scene in results.scenes:
-            if sentence.startswith(f"{scene}: "):
-                text = sentence.removeprefix(f"{scene}: ")
-                lead[scene].append(text[:1].upper() + text[1:])
-                break
-            if any(sentence.startswith(f"{scene}, {sampler}: ") for sampler in results.samplers):
-                details[scene].append(sentence.removeprefix(f"{scene}, "))
-                break
-        else:
-            general.append(sentence)
-    fronts = {scene: [choice for choice in results.front if choice.scene == scene] for scene in results.scenes}
-    return [Answer(scene, lead[scene], details[scene], budgets(fronts[scene])) for scene in results.scenes], general
+def answers(results: Results) -> list[Answer]:
+    """Return the answers scene by scene."""
+    found = statements(results)
+    return [
+        Answer(
+            scene,
+            [each.text[:1].upper() + each.text[1:] for each in found if each.scene == scene and not each.sampler],
+            [f"{each.sampler}: {each.text}" for each in found if each.scene == scene and each.sampler],
+            budgets([choice for choice in results.front if choice.scene == scene]),
+        )
+        for scene in results.scenes
+    ]
 
 
 def budgets(front: Sequence[Choice]) -> list[Budget]:

@@ -12,7 +12,7 @@ import jinja2
 from markupsafe import Markup
 
 from samplekit._report import wording
-from samplekit._report.answers import arranged
+from samplekit._report.answers import answers
 from samplekit._report.pixels import STEPS, packed
 from samplekit._study.results import LEVEL
 from samplekit.files._images import diverging
@@ -72,7 +72,6 @@ def page(results: Results, folder: Path) -> str:
     style = "\n".join(asset(f"style/{name}.css") for name in STYLES)
     scripts = [asset(_LIBRARY), '"use strict";\n' + "\n".join(asset(f"scripts/{name}.js") for name in SCRIPTS)]
     pictures = packed(results, folder)
-    answers, general = arranged(results)
     study = asdict(results) | {"seed": str(results.seed)}
     data = {
         "study": study,
@@ -91,8 +90,7 @@ def page(results: Results, folder: Path) -> str:
         size=tuple(results.size),
         samplers=results.samplers,
         level=LEVEL,
-        answers=answers,
-        general=general,
+        answers=answers(results),
         fits={(fit.scene, fit.sampler): fit for fit in results.fits},
         timed=any(row.times for row in results.rows),
         blurred=any(row.blurred_mse for row in results.rows),

@@ -12,9 +12,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
     from pathlib import Path
 
-    from samplekit._stability.sweep import Cell
+    from samplekit._stability.sweep import Cell, Stability
 
-SCHEMA = "samplekit._stability/1"
+SCHEMA = "samplekit.stability/1"
 _NUMBERS = (
     "exact",
     "reference_error",
@@ -49,20 +49,20 @@ def as_record(cell: Cell) -> dict[str, Any]:
     return record
 
 
-def as_json(cells: Sequence[Cell], realizations: int, seed: int, files: Sequence[Path]) -> dict[str, Any]:
-    """The whole sweep as JSON has it."""
-    lost = precision_lost_beyond(cells)
+def as_json(sweep: Stability) -> dict[str, Any]:
+    """Return the whole sweep as JSON has it."""
+    cells, lost = sweep.cells, precision_lost_beyond(sweep.cells)
     return {
         "schema": SCHEMA,
-        "realizations": realizations,
-        "seed": seed,
+        "realizations": sweep.realizations,
+        "seed": sweep.seed,
         "verdicts": _tally(cells),
         "precision_lost_beyond": [
             {"scene": f"{name}:{extreme}" if extreme else name, "sampler": sampler, "count": count}
             for (name, extreme, sampler), count in lost.items()
         ],
         "cells": [as_record(cell) for cell in cells],
-        "files": [str(file) for file in files],
+        "files": [str(file) for file in sweep.files],
     }
 
 
@@ -118,7 +118,7 @@ def _file(name: str) -> str:
     return name.replace("/", "-")
 
 
-def write(folder: Path, cells: Sequence[Cell], realizations: int, seed: int) -> list[Path]:
+def write(folder: Path, sweep: Stability) -> list[Path]:
     """Write the table and a heat map for each scene, all of them or none.
 
     Raises
@@ -135,6 +135,7 @@ def write(folder: Path, cells: Sequence[Cell], realizations: int, seed: int) -> 
     from samplekit.files._verified import text_writer
     from samplekit.files._writing import write_group
 
+    cells, realizations, seed = sweep.cells, sweep.realizations, sweep.seed
     metadata = {"schema": SCHEMA, "realizations": realizations, "seed": str(seed), "versions": versions()}
     items = [(folder / "stability.csv", text_writer(list(csv_lines(cells))))]
     for name in dict.fromkeys(cell.name for cell in cells):

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -57,6 +59,123 @@ def scenes_of(texts: Sequence[str]) -> list[tuple[str, str]]:
         extremes = registry().find("scene", name).spec.extremes
         chosen += [(name, options)] if options or not extremes else [(name, extreme) for extreme in extremes]
     return list(dict.fromkeys(chosen))
+
+
+@dataclass(frozen=True)
+class Stability:
+    """A sweep of scenes from mild to stiff.
+
+    Attributes
+    ----------
+    cells
+        A cell for each scene, sampler and count.
+    realizations, seed
+        Independent estimates of each cell, and their seed.
+    files
+        The files that were written.
+
+    Examples
+    --------
+    >>> import samplekit
+    >>> sweep = samplekit.stability("disk:radius=0.3", "jittered", [16, 64])
+    >>> [cell.verdict.kind for cell in sweep.cells]
+    ['right', 'right']
+    """
+
+    cells: list[Cell]
+    realizations: int
+    seed: int
+    files: tuple[Path, ...] = ()
+
+    @property
+    def wrong(self) -> list[Cell]:
+        """The cells whose estimates are wrong, with nothing that explains it."""
+        return [cell for cell in self.cells if cell.verdict.kind == "wrong"]
+
+    def as_json(self) -> dict[str, Any]:
+        """Return what ``samplekit stability --json`` prints."""
+        from samplekit._stability.report import as_json
+
+        return as_json(self)
+
+    def table(self) -> list[str]:
+        """Return the lines of text that ``samplekit stability`` prints."""
+        from samplekit._stability.report import table
+
+        return list(table(self.cells))
+
+    def save(self, folder: str | os.PathLike[str]) -> Stability:
+        """Write stability.csv and a heat map for each scene, all of them or none; return the sweep with its ``files``.
+
+        Raises
+        ------
+        UsageError
+            The folder cannot be written to.
+        SamplekitError
+            A file cannot be written.
+        """
+        from samplekit._stability.report import write
+
+        return replace(self, files=tuple(write(Path(folder), self)))
+
+
+def stability(
+    scenes: str | Sequence[str] = (),
+    samplers: str | Sequence[str] = SAMPLERS,
+    counts: Sequence[int] = COUNTS,
+    *,
+    realizations: int = REALIZATIONS,
+    seed: int = 0,
+    output: str | os.PathLike[str] | None = None,
+    progress: Callable[[int, int], None] = lambda _, __: None,
+) -> Stability:
+    """Sweep scenes from mild to stiff, and judge every estimate.
+
+    Each cell compares estimates over the unit square with the exact mean, in units of their own standard error, and
+    with a run in extended precision from the same points.
+
+    Parameters
+    ----------
+    scenes
+        As on the command line; a name alone stands for all the extremes that the scene declares. By default all scenes
+        that need no option.
+    samplers, counts
+        The samplers, and the numbers of samples of an estimate.
+    realizations
+        Independent estimates of each cell.
+    seed
+        From 0 to 2^64 - 1.
+    output
+        A folder for a table and heat maps; None: no files.
+    progress
+        Called with the numbers of samples done and to do.
+
+    Raises
+    ------
+    UsageError
+        The request cannot be carried out.
+    SamplekitError
+        A plugin failed, or a file cannot be written.
+
+    Examples
+    --------
+    >>> import samplekit
+    >>> samplekit.stability("disk:radius=0.3", "jittered", [16]).wrong
+    []
+    """
+    if output is not None and not Path(output).is_dir():
+        raise UsageError(f"--output {os.fspath(output)}: there is no such folder")
+    scenes, samplers = ([each] if isinstance(each, str) else each for each in (scenes, samplers))
+    cells = sweep(
+        scenes_of(list(dict.fromkeys(scenes))),
+        list(dict.fromkeys(samplers)),
+        counts,
+        realizations=realizations,
+        seed=seed,
+        progress=progress,
+    )
+    swept = Stability(cells, realizations, seed)
+    return swept if output is None else swept.save(output)
 
 
 def sweep(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from samplekit._study.manner import Manner
+from samplekit._study.options import ExecutionOptions
 from samplekit._study.request import Request, checked_request
 from samplekit._study.study import Study
 from samplekit._study.subjects import Subjects
@@ -38,7 +38,7 @@ def compare(
     fit: tuple[int, int] | None = None,
     output: str | os.PathLike[str] | None = None,
     resume: bool = False,
-    progress: Callable[[str, int, int], None] | None = None,
+    progress: Callable[[str, int, int], None] = lambda _, __, ___: None,
 ) -> Results:
     """Compare samplers: error against samples and against run time, with intervals over independent trials.
 
@@ -56,17 +56,17 @@ def compare(
     seed
         From 0 to 2^64 - 1.
     threads, processes
-        That share the work; errors do not depend on it. None: as many threads as there are processors. Times are
-        always those of one thread. Processes begin by importing the calling script: it needs the usual guard,
-        ``if __name__ == "__main__":``.
+        How many of them share the work; errors do not depend on it. None: as many threads as there are processors.
+        Times are always those of one thread. Processes begin by importing the calling script: it needs the usual
+        guard, ``if __name__ == "__main__":``.
     dask
         Address of a Dask scheduler whose workers compute the errors.
     times, budget
-        Take run times, in so many seconds; None: a tenth of what the errors take, and at least one.
+        Measure run times, for so many seconds; None: a tenth of what the errors take, and at least one.
     cost
-        Nanoseconds that each sample costs besides, where the integrand is a renderer's.
+        Extra cost per sample, in nanoseconds, as if a renderer shaded it.
     target
-        Mean squared error whose price is told; None: one for each scene that all samplers reach.
+        Target mean squared error for the time-to-target table; None: one for each scene that all samplers reach.
     fit
         First and last count that slopes are fitted to; None: all.
     output
@@ -86,6 +86,8 @@ def compare(
         The request cannot be carried out.
     SamplekitError
         A plugin failed, or a file cannot be written. What was done is in the folder.
+    InterruptedStudy
+        The user interrupted the study; the exception carries the results of what was done.
 
     Examples
     --------
@@ -97,19 +99,44 @@ def compare(
     """
     subjects = Subjects()
     request = _request(subjects, samplers, scenes, spp, trials, size, seed)
-    manner = Manner(threads, processes, dask, times, budget, cost, target, fit)
+    options = ExecutionOptions(threads, processes, dask, times, budget, cost, target, fit)
     folder = None if output is None else Path(output)
-    told = progress or (lambda _, __, ___: None)
-    with Study(request, manner, subjects, folder, resume=resume) as study:
-        study.run(told)
+    with Study(request, options, subjects, folder, resume=resume) as study:
+        interrupted = False
+        try:
+            study.run(progress)
+        except KeyboardInterrupt:
+            interrupted = True
         results = study.results()
-        if folder is None:
-            return results
-        from samplekit._study.outputs import write_outputs
+        if folder is not None:
+            from samplekit._study.outputs import write_outputs
 
-        return write_outputs(
-            results, request, subjects, folder, threads, lambda done, total: told("writing images", done, total)
-        )
+            results = write_outputs(
+                results, request, subjects, folder, threads, lambda done, total: progress("writing images", done, total)
+            )
+    if interrupted:
+        raise InterruptedStudy(results)
+    return results
+
+
+class InterruptedStudy(KeyboardInterrupt):
+    """The user interrupted a study.
+
+    Attributes
+    ----------
+    results
+        The results of what was done.
+
+    Examples
+    --------
+    >>> import samplekit
+    >>> issubclass(samplekit.InterruptedStudy, KeyboardInterrupt)
+    True
+    """
+
+    def __init__(self, results: Results) -> None:
+        super().__init__()
+        self.results = results
 
 
 def _request(

@@ -14,7 +14,7 @@ from samplekit._study.answers import Choice, Crossing, Fit, Flip, LeftOut, ToTar
 from samplekit._study.measured import LEVEL, Clock, Interval, Pictures, Row, Spread, Times
 from samplekit._study.plain_data import from_plain
 
-SCHEMA = "samplekit._study/1"
+SCHEMA = "samplekit.study/1"
 
 __all__ = [
     "LEVEL",
@@ -95,8 +95,8 @@ class Results:
     front: list[Choice]
     flips: list[Flip]
     left_out: list[LeftOut]
-    sentences: list[str]
     notes: list[str]
+    sentences: list[str] = field(default_factory=list)
     plots: list[str] = field(default_factory=list)
     crossings: list[Crossing] = field(default_factory=list)
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
-    from samplekit._study.results import Choice, Crossing, Fit, Flip, ToTarget
+    from samplekit._study.results import Choice, Fit, Flip, Results, ToTarget
 
 _MOST_SPANS = 2
 _UNITS = ((1.0, "s"), (1e-3, "ms"), (1e-6, "µs"), (1e-9, "ns"))
@@ -19,39 +20,51 @@ def seconds_in_words(seconds: float) -> str:
     return f"{seconds / size:.3g} {unit}"
 
 
-def sentences(
-    target: Mapping[str, float],
-    to_target: Sequence[ToTarget],
-    front: Sequence[Choice],
-    flips: Sequence[Flip],
-    fits: Sequence[Fit],
-    crossings: Sequence[Crossing],
-) -> list[str]:
-    """Sentences for each scene that has a target."""
-    found: list[str] = []
-    for scene, error in target.items():
-        own = [need for need in to_target if need.scene == scene]
-        choices = [choice for choice in front if choice.scene == scene]
-        found.append(_of_scene(scene, error, own, choices, [flip for flip in flips if flip.scene == scene]))
+@dataclass(frozen=True)
+class Statement:
+    """A statement about a scene, or about one sampler on it; ``text`` does not name the scene."""
+
+    scene: str
+    sampler: str | None
+    text: str
+
+    @property
+    def sentence(self) -> str:
+        """The whole sentence."""
+        return f"{self.scene}, {self.sampler}: {self.text}" if self.sampler else f"{self.scene}: {self.text}"
+
+
+def statements(results: Results) -> list[Statement]:
+    """Return statements about each scene that has a target."""
+    found: list[Statement] = []
+    for scene, error in results.target.items():
+        own = [need for need in results.to_target if need.scene == scene]
+        choices = [choice for choice in results.front if choice.scene == scene]
+        flips = [flip for flip in results.flips if flip.scene == scene]
+        found.append(Statement(scene, None, _of_scene(error, own, choices, flips)))
         found += [
-            f"{scene}: {crossing.fewer} has the smaller error up to {crossing.last} samples, {crossing.more} from"
-            f" {crossing.first} on; their curves cross at about {crossing.count:.0f}."
-            for crossing in crossings
+            Statement(
+                scene,
+                None,
+                f"{crossing.fewer} has the smaller error up to {crossing.last} samples, {crossing.more} from"
+                f" {crossing.first} on; their curves cross at about {crossing.count:.0f}.",
+            )
+            for crossing in results.crossings
             if crossing.scene == scene
         ]
-        slopes = {fit.sampler: fit for fit in fits if fit.scene == scene}
-        found += [_of_sampler(need, own, choices, slopes.get(need.sampler)) for need in own]
+        slopes = {fit.sampler: fit for fit in results.fits if fit.scene == scene}
+        found += [
+            Statement(scene, need.sampler, _of_sampler(need, own, choices, slopes.get(need.sampler))) for need in own
+        ]
     return found
 
 
-def _of_scene(
-    scene: str, target: float, needs: Sequence[ToTarget], choices: Sequence[Choice], flips: Sequence[Flip]
-) -> str:
+def _of_scene(target: float, needs: Sequence[ToTarget], choices: Sequence[Choice], flips: Sequence[Flip]) -> str:
     reached = [need for need in needs if need.count is not None]
     if not reached:
-        return f"{scene}: no sampler reaches an mse of {target:.3g}."
+        return f"no sampler reaches an mse of {target:.3g}."
     fewest = min(reached, key=lambda need: need.count or 0.0)
-    text = f"{scene}: for an mse of {target:.3g}, {fewest.sampler} needs the fewest samples ({fewest.count:.3g})"
+    text = f"for an mse of {target:.3g}, {fewest.sampler} needs the fewest samples ({fewest.count:.3g})"
     timed = [need for need in reached if need.seconds is not None]
     if timed:
         fastest = min(timed, key=lambda need: need.seconds or 0.0)
@@ -68,11 +81,10 @@ def _of_scene(
 
 
 def _of_sampler(need: ToTarget, needs: Sequence[ToTarget], choices: Sequence[Choice], fit: Fit | None) -> str:
-    text = f"{need.scene}, {need.sampler}: "
     if need.count is None:
-        text += need.note
+        text = need.note
     else:
-        text += f"needs {need.count:.3g} samples"
+        text = f"needs {need.count:.3g} samples"
         fastest = min((other.seconds for other in needs if other.seconds is not None), default=None)
         if need.seconds is not None and fastest:
             text += f" and {seconds_in_words(need.seconds)}"
@@ -99,8 +111,6 @@ def _of_sampler(need: ToTarget, needs: Sequence[ToTarget], choices: Sequence[Cho
 
 def _joined(choices: Sequence[Choice], sampler: str) -> list[Choice]:
     """The choices of a sampler, those that follow on each other as one."""
-    from dataclasses import replace
-
     joined: list[Choice] = []
     for previous, choice in zip([None, *choices], choices, strict=False):
         if choice.sampler != sampler:

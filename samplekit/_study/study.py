@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import threading
 import time
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from samplekit._errors import UsageError
@@ -20,7 +21,7 @@ from samplekit._study.machine import describe_machine, kind, known_versions
 from samplekit._study.processes import in_processes
 from samplekit._study.results import Results
 from samplekit._study.rows import Analysis
-from samplekit._study.sentences import sentences
+from samplekit._study.sentences import statements
 from samplekit._study.setup import set_up
 from samplekit._study.store import Store
 from samplekit._study.trials import carry_out
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from samplekit._study.cells import Cell
-    from samplekit._study.manner import Manner
+    from samplekit._study.options import ExecutionOptions
     from samplekit._study.request import Request
     from samplekit._study.subjects import Subjects
 
@@ -51,12 +52,18 @@ class Study:
     """
 
     def __init__(
-        self, request: Request, manner: Manner, subjects: Subjects, folder: Path | None = None, *, resume: bool = False
+        self,
+        request: Request,
+        options: ExecutionOptions,
+        subjects: Subjects,
+        folder: Path | None = None,
+        *,
+        resume: bool = False,
     ) -> None:
-        manner.check()
+        options.check()
         if resume and folder is None:
             raise UsageError("--resume needs --output, the folder of the study")
-        self._request, self._manner, self._subjects = request, manner, subjects
+        self._request, self._options, self._subjects = request, options, subjects
         self._cells, self._left_out = lay_out(request, subjects)
         self._machine, self._versions = describe_machine(), known_versions()
         if folder is not None:
@@ -65,7 +72,7 @@ class Study:
         self._cluster: Cluster | None = None
         try:
             self._store.begin(request.plain(), self._versions)
-            self._cluster = Cluster(manner.dask) if manner.dask is not None else None
+            self._cluster = Cluster(options.dask) if options.dask is not None else None
         except BaseException:
             self.close()
             raise
@@ -94,21 +101,21 @@ class Study:
         timings = [TimingRun(cell, self._request, self._subjects) for cell in self._cells]
         seconds = {}
         for number, timing in enumerate(timings):
-            seconds[timing.cell] = timing.warm_up(LAP_SECONDS if self._manner.times else LOOK_SECONDS)
+            seconds[timing.cell] = timing.warm_up(LAP_SECONDS if self._options.times else LOOK_SECONDS)
             progress("warming up", number + 1, len(timings))
-        if self._manner.times:
+        if self._options.times:
             self._laps(timings, 0.0, progress)
         began = time.perf_counter()
         self._errors(seconds, progress)
-        if self._manner.times:
+        if self._options.times:
             share = max(_SHARE * (time.perf_counter() - began), _LEAST)
-            self._laps(timings, share if self._manner.budget is None else self._manner.budget, progress)
+            self._laps(timings, share if self._options.budget is None else self._options.budget, progress)
 
     def _set_up(self, progress: Progress) -> None:
         machine = kind(self._machine)
         for cell in self._cells:
             cpu, wall = set_up(cell, self._subjects, lambda done, total: progress("preparing point sets", done, total))
-            if self._manner.times:
+            if self._options.times:
                 self._store.add_setup(machine, cell, cpu, wall)
 
     def _laps(self, timings: list[TimingRun], seconds: float, progress: Progress) -> None:
@@ -122,11 +129,11 @@ class Study:
         )
 
     def _errors(self, seconds: dict[Cell, float], progress: Progress) -> None:
-        workers = self._manner.processes
+        workers = self._options.processes
         if self._cluster is not None:
             workers = self._cluster.threads
         elif workers == 1:
-            workers = check_threads(self._manner.threads)
+            workers = check_threads(self._options.threads)
         jobs = split(
             self._request, self._cells, lambda cell: gaps(self._store.ranges(cell), cell.trials), seconds, workers
         )
@@ -144,7 +151,7 @@ class Study:
 
         if self._cluster is not None:
             found = self._cluster.run(jobs, tick)
-        elif self._manner.processes > 1:
+        elif self._options.processes > 1:
             found = in_processes(jobs, workers, tick)
         else:
             found = on_threads(lambda job, tick: carry_out(job, self._subjects, tick), jobs, workers, tick)
@@ -155,20 +162,20 @@ class Study:
 
     def results(self) -> Results:
         """What is there, also after an interrupt."""
-        request, manner = self._request, self._manner
+        request, options = self._request, self._options
         analysis = Analysis(
-            request, self._cells, self._store, self._subjects, kind(self._machine), manner.cost, manner.fitted
+            request, self._cells, self._store, self._subjects, kind(self._machine), options.cost, options.fitted
         )
         rows = analysis.rows()
         fits = analysis.fits(rows)
-        target = ranking.targets(rows, manner.target)
+        target = ranking.targets(rows, options.target)
         to_target = ranking.times_to_target(rows, target)
         front, crossed = ranking.front(rows), crossings(rows)
-        flips = ranking.flips(rows, to_target, manner.cost)
-        more = [f"--cost {manner.cost:g}"] if manner.cost else []
-        more += [f"--target {manner.target:g}"] if manner.target else []
-        more += [f"--fit {manner.fitted[0]}..{manner.fitted[1]}"] if manner.fitted else []
-        return Results(
+        flips = ranking.flips(rows, to_target, options.cost)
+        more = [f"--cost {options.cost:g}"] if options.cost else []
+        more += [f"--target {options.target:g}"] if options.target else []
+        more += [f"--fit {options.fitted[0]}..{options.fitted[1]}"] if options.fitted else []
+        results = Results(
             command=request.command(*more),
             versions=self._versions,
             machine=self._machine,
@@ -179,7 +186,7 @@ class Study:
             size=request.size,
             seed=request.seed,
             workers=self._workers(),
-            cost=manner.cost,
+            cost=options.cost,
             target=target,
             complete=analysis.complete,
             rows=rows,
@@ -188,22 +195,22 @@ class Study:
             front=front,
             flips=flips,
             left_out=[*self._left_out, *analysis.left_out],
-            sentences=sentences(target, to_target, front, flips, fits, crossed),
             notes=self._notes(),
             crossings=crossed,
         )
+        return replace(results, sentences=[statement.sentence for statement in statements(results)])
 
     def _workers(self) -> str:
         if self._cluster is not None:
-            return f"Dask at {self._manner.dask}"
-        if self._manner.processes > 1:
-            return f"{self._manner.processes} processes"
-        threads = check_threads(self._manner.threads)
+            return f"Dask at {self._options.dask}"
+        if self._options.processes > 1:
+            return f"{self._options.processes} processes"
+        threads = check_threads(self._options.threads)
         return f"{threads} thread{'' if threads == 1 else 's'}"
 
     def _notes(self) -> list[str]:
         notes = ["Intervals are of 95 %, over independent trials."]
-        if self._manner.times:
+        if self._options.times:
             notes.append("Times are processor seconds of a trial on one thread, set-up apart.")
         if self._cluster is not None:
             notes.append("Errors were computed by the cluster; times were taken where the command ran.")

@@ -6,6 +6,11 @@ from ._options import SamplerOption as SamplerOption
 from ._options import SeedOption as SeedOption
 from ._progress import Progress as Progress
 from ._progress import Stages as Stages
+from ._statuses import CHECK_FAILED as CHECK_FAILED
+from ._statuses import DONE as DONE
+from ._statuses import FAILED as FAILED
+from ._statuses import INTERRUPTED as INTERRUPTED
+from ._statuses import WRONG_USE as WRONG_USE
 from ._values import parse_count as parse_count
 from ._values import parse_counts as parse_counts
 from ._values import parse_crop as parse_crop

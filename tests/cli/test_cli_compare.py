@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from samplekit._study import processes as pool
+from samplekit._study import study
 from samplekit._study.results import SCHEMA, from_json
 
 ASK = ("compare", "-s", "random", "-s", "jittered", "--scene", "disk", "--spp", "4,13")
@@ -37,7 +37,7 @@ def test_json_and_files(command, tmp_path):
 
 
 def test_interrupt_leaves_what_is_there(command, tmp_path, monkeypatch):
-    carried_out = pool.carry_out
+    carried_out = study.carry_out
     jobs = []
 
     def interrupted(job, *arguments):
@@ -46,7 +46,7 @@ def test_interrupt_leaves_what_is_there(command, tmp_path, monkeypatch):
         jobs.append(job)
         return carried_out(job, *arguments)
 
-    monkeypatch.setattr(pool, "carry_out", interrupted)
+    monkeypatch.setattr(study, "carry_out", interrupted)
     done = command(*ASK, "--no-time", "--threads", "1", "--output", "out")
     assert done.status == 130
     assert "interrupted: this is what was done" in done.err
@@ -54,7 +54,7 @@ def test_interrupt_leaves_what_is_there(command, tmp_path, monkeypatch):
     found = from_json((tmp_path / "out" / "results.json").read_text(encoding="utf-8"))
     assert not found.complete
     assert (tmp_path / "out" / "report.html").exists()
-    monkeypatch.setattr(pool, "carry_out", carried_out)
+    monkeypatch.setattr(study, "carry_out", carried_out)
     resumed = command(*ASK, "--no-time", "--output", "out", "--resume", "--json")
     assert (resumed.status, resumed.report["complete"], len(resumed.report["rows"])) == (0, True, 4)
 
@@ -63,7 +63,7 @@ def test_interrupt_before_anything_is_done(command, monkeypatch):
     def interrupted(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(pool, "carry_out", interrupted)
+    monkeypatch.setattr(study, "carry_out", interrupted)
     done = command(*ASK, "--no-time", "--threads", "1", "--output", "out", "--json")
     assert (done.status, done.report["rows"]) == (130, [])
 

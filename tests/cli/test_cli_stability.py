@@ -34,7 +34,7 @@ def test_the_command_writes_heat_maps_and_all_numbers(command, tmp_path):
     done = command("stability", *arguments, "--realizations", "4", "--output", tmp_path, "--json")
     assert done.status == 0
     report = done.report
-    assert report["schema"] == "samplekit._stability/1"
+    assert report["schema"] == "samplekit.stability/1"
     assert len(report["cells"]) == 12
     assert sum(report["verdicts"].values()) == 12
     assert report["verdicts"]["invalid"] == 1

@@ -17,7 +17,7 @@ def test_picture_is_made_once_and_the_same_each_time(tmp_path, capsys):
     assert run(arguments) == 0
     path = folder / "random-and-jittered.png"
     first = path.read_bytes()
-    assert json.loads(capsys.readouterr().out) == {"schema": "samplekit._gallery/1", "made": [str(path)], "kept": []}
+    assert json.loads(capsys.readouterr().out) == {"schema": "samplekit.gallery/1", "made": [str(path)], "kept": []}
     assert run(arguments) == 0
     assert json.loads(capsys.readouterr().out)["kept"] == [str(path)]
     assert run([*arguments, "--fresh"]) == 0

@@ -2,24 +2,24 @@ from dataclasses import replace
 
 import pytest
 
-from samplekit._report.answers import arranged, budgets
-from samplekit._study.results import Choice
+from samplekit._report.answers import answers, budgets
+from samplekit._study.results import Choice, ToTarget
 
 
 def test_sentences_stand_with_their_scene_and_those_about_one_sampler_apart(study):
-    sentences = ["disk, jittered: needs 3 ms", "disk: up to 1 ms random is best", "gaussian: same", "all is well"]
-    (disk, gaussian), general = arranged(replace(study(), sentences=sentences))
-    assert disk.lead == ["Up to 1 ms random is best"]
-    assert disk.details == ["jittered: needs 3 ms"]
-    assert gaussian.lead == ["Same"]
-    assert general == ["all is well"]
+    needs = [ToTarget("disk", "jittered", 1e-3, 40.0, 3e-3, ""), ToTarget("gaussian", "random", 1e-3, None, None, "no")]
+    disk, gaussian = answers(replace(study(scenes=("disk", "gaussian")), to_target=needs, front=[]))
+    assert disk.lead == ["For an mse of 0.001, jittered needs the fewest samples (40) and the least time (3 ms)."]
+    assert disk.details == ["jittered: needs 40 samples and 3 ms, the least; its mse falls as N^-1.50."]
+    assert gaussian.lead == ["No sampler reaches an mse of 0.001."]
 
 
 def test_a_scene_whose_name_begins_another_keeps_its_own_sentences(study):
-    results = replace(study(scenes=("disk", "disk:radius=0.1")), sentences=["disk:radius=0.1: all alike"])
-    (disk, small), _ = arranged(results)
+    needs = [ToTarget("disk:radius=0.1", "jittered", 1e-3, 40.0, None, "")]
+    results = replace(study(scenes=("disk", "disk:radius=0.1")), to_target=needs, target={"disk:radius=0.1": 1e-3})
+    disk, small = answers(results)
     assert disk.lead == []
-    assert small.lead == ["All alike"]
+    assert small.details[0].startswith("jittered: needs 40 samples")
 
 
 def test_choices_of_one_sampler_in_a_row_are_one_range_and_ranges_fill_the_strip():

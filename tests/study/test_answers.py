@@ -2,13 +2,14 @@
 
 from dataclasses import replace
 from itertools import pairwise
+from types import SimpleNamespace
 
 import pytest
 
 from samplekit._study.crossings import crossings
 from samplekit._study.ranking import flips, front, targets, times_to_target
 from samplekit._study.results import Clock, Interval, Row, Spread, Times
-from samplekit._study.sentences import seconds_in_words, sentences
+from samplekit._study.sentences import seconds_in_words, statements
 
 
 def row(sampler, count, mse, time, width=1.1, scene="disk"):
@@ -87,7 +88,15 @@ def test_sentences_name_the_numbers():
     rows = CHEAP + GOOD
     target = {"disk": 0.02}
     needs = times_to_target(rows, target)
-    words = sentences(target, needs, front(rows), flips(rows, needs, 0.0), [], crossings(rows))
+    results = SimpleNamespace(
+        target=target,
+        to_target=needs,
+        front=front(rows),
+        flips=flips(rows, needs, 0.0),
+        fits=[],
+        crossings=crossings(rows),
+    )
+    words = [statement.sentence for statement in statements(results)]
     assert words[0].startswith("disk: for an mse of 0.02, good needs the fewest samples (13.6)")
     assert "cheap the least time (50 ns)" in words[0]
     assert len(words) == 3

@@ -35,7 +35,7 @@ def test_old_results_have_no_crossings(results):
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"schema": "samplekit._study/0"}, "version 'samplekit._study/0'.*run the study anew"),
+        ({"schema": "samplekit.study/0"}, "version 'samplekit.study/0'.*run the study anew"),
         ({"trials": "many"}, "damaged"),
         ({"surprise": 1}, "damaged"),
         ({"rows": [{}]}, "damaged"),

@@ -1,4 +1,4 @@
-"""How a study is carried out, and what is asked of its results."""
+"""How a study is carried out, and what its results are to say."""
 
 from __future__ import annotations
 
@@ -11,23 +11,23 @@ from samplekit._threads import check_threads
 
 
 @dataclass(frozen=True)
-class Manner:
-    """How a study is carried out and what is asked of its results: nothing that errors depend on.
+class ExecutionOptions:
+    """How a study is carried out and what its results are to say. No error depends on it.
 
     Attributes
     ----------
     threads, processes
-        That share the jobs; processes take the place of threads where there is more than one.
+        How many of them share the jobs; more than one process takes the place of threads.
     dask
         Address of a Dask scheduler whose workers do the jobs instead.
     times
-        Take run times.
+        Measure run times.
     budget
-        Seconds for them; None: a tenth of what errors take, and at least one.
+        Seconds for run times; None: a tenth of what the errors take, and at least one.
     cost
-        Nanoseconds that each sample costs besides.
+        Extra cost per sample, in nanoseconds, as if a renderer shaded it.
     target
-        Error to reach; None: one for each scene that all samplers reach.
+        Target mean squared error for the time-to-target table; None: one for each scene that all samplers reach.
     fitted
         First and last count that fits use; None: all.
     """
