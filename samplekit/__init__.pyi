@@ -31,6 +31,7 @@ from ._listing import samplers as samplers
 from ._listing import scenes as scenes
 from ._provenance import versions as versions
 from ._registry import Plugin as Plugin
+from ._specs import CommandOption as CommandOption
 from ._specs import CommandSpec as CommandSpec
 from ._specs import GridStrata as GridStrata
 from ._specs import LatinStrata as LatinStrata

@@ -13,7 +13,7 @@ import pluggy
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from samplekit._specs import CommandSpec, RandomizerSpec, SamplerSpec, SceneSpec
+    from samplekit._specs import CommandOption, CommandSpec, RandomizerSpec, SamplerSpec, SceneSpec
 
 hookspec = pluggy.HookspecMarker("samplekit")
 hookimpl = pluggy.HookimplMarker("samplekit")
@@ -37,3 +37,8 @@ def samplekit_scenes() -> Iterable[SceneSpec]:  # type: ignore[empty-body]
 @hookspec
 def samplekit_commands() -> Iterable[CommandSpec]:  # type: ignore[empty-body]
     """Commands of the command line."""
+
+
+@hookspec
+def samplekit_options() -> Iterable[CommandOption]:  # type: ignore[empty-body]
+    """Options that are added to commands."""

@@ -19,12 +19,12 @@ import pluggy
 from samplekit import _hooks
 from samplekit._errors import AmbiguousNameError, UnknownNameError
 from samplekit._quoting import quoted, reason
-from samplekit._specs import CommandSpec, RandomizerSpec, SamplerSpec, SceneSpec
+from samplekit._specs import CommandOption, CommandSpec, RandomizerSpec, SamplerSpec, SceneSpec
 
 if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
 
-Kind = Literal["sampler", "randomizer", "scene", "command"]
+Kind = Literal["sampler", "randomizer", "scene", "command", "option"]
 
 BUILTIN = "samplekit"
 GROUP = "samplekit"
@@ -36,6 +36,7 @@ _TYPES: dict[Kind, type] = {
     "randomizer": RandomizerSpec,
     "scene": SceneSpec,
     "command": CommandSpec,
+    "option": CommandOption,
 }
 
 

@@ -15,8 +15,8 @@ import typer
 from samplekit import __version__
 from samplekit._boundary import redirect_plugin_output
 from samplekit._builtin.declarations.commands import COMMANDS
+from samplekit._cli.command import Command
 from samplekit._cli.plugin_commands import PluginGroup
-from samplekit._cli.single_options import SingleOptionsCommand
 from samplekit._errors import SamplekitError, UsageError
 from samplekit.commands import _interrupts as interrupts
 from samplekit.commands._statuses import DONE, FAILED, INTERRUPTED, WRONG_USE
@@ -57,7 +57,7 @@ def _main(
 for _spec in COMMANDS:
     _run = _spec.load()
     # Python drops docstrings if it is asked to (-OO).
-    app.command(_spec.name, help=_run.__doc__ or _spec.summary, cls=SingleOptionsCommand)(_run)
+    app.command(_spec.name, help=_run.__doc__ or _spec.summary, cls=Command)(_run)
 
 
 def main() -> None:

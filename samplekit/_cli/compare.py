@@ -122,6 +122,7 @@ def compare(
 
 def _report(results: Results, output: str, as_json: bool) -> None:
     from samplekit._cli.comparison import left_out_lines, lines
+    from samplekit.commands import fact_lines, plugin_facts
 
     for line in left_out_lines(results):
         typer.echo(f"samplekit: {line}", err=True)
@@ -130,9 +131,9 @@ def _report(results: Results, output: str, as_json: bool) -> None:
 
         from samplekit._study.results import to_json
 
-        typer.echo(json.dumps(json.loads(to_json(results)), allow_nan=False))
+        typer.echo(json.dumps(json.loads(to_json(results)) | plugin_facts(results), allow_nan=False))
         return
-    for line in lines(results):
+    for line in [*lines(results), *fact_lines(plugin_facts(results))]:
         typer.echo(line)
     if output:
         typer.echo(f"wrote {output}")

@@ -10,8 +10,7 @@ import typer
 from typer.core import TyperGroup
 
 from samplekit._boundary import Boundary
-from samplekit._cli.panels import arranged
-from samplekit._cli.single_options import SingleOptionsCommand
+from samplekit._cli.command import Command, arranged
 from samplekit._errors import SamplekitError, UnknownNameError, UsageError
 from samplekit._quoting import quoted, reason
 
@@ -96,9 +95,7 @@ def _made(registration: Registration) -> Any:
         return None if isinstance(status, bool) else status
 
     single = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
-    single.command(registration.name, help=_plain(run.__doc__ or registration.spec.summary), cls=SingleOptionsCommand)(
-        guarded
-    )
+    single.command(registration.name, help=_plain(run.__doc__ or registration.spec.summary), cls=Command)(guarded)
     return boundary.call("cannot be set up", lambda: typer.main.get_command(single))
 
 

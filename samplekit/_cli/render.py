@@ -48,7 +48,16 @@ def render(
     Example: samplekit render --sampler hammersley --spp 16
     """
     from samplekit import render as render_image
-    from samplekit.commands import Progress, announce_compilation, parse_count, parse_crop, parse_seed, parse_size
+    from samplekit.commands import (
+        Progress,
+        announce_compilation,
+        fact_lines,
+        parse_count,
+        parse_crop,
+        parse_seed,
+        parse_size,
+        plugin_facts,
+    )
 
     width_height = parse_size(size)
     announce_compilation()
@@ -70,12 +79,13 @@ def render(
             progress=progress,
             preparing=preparing,
         )
+    facts = plugin_facts(rendering)
     if json:
         from json import dumps
 
-        typer.echo(dumps(rendering.as_json(), allow_nan=False))
+        typer.echo(dumps(rendering.as_json() | facts, allow_nan=False))
     else:
-        for line in _table(rendering):
+        for line in [*_table(rendering), *fact_lines(facts)]:
             typer.echo(line)
     if no_error:
         _warn_of_an_old_error_picture(rendering)

@@ -50,7 +50,15 @@ def stability(
     Example: samplekit stability --scene gaussian --sampler sobol+owen
     """
     from samplekit import stability as sweep
-    from samplekit.commands import Progress, announce_compilation, parse_count, parse_counts, parse_seed
+    from samplekit.commands import (
+        Progress,
+        announce_compilation,
+        fact_lines,
+        parse_count,
+        parse_counts,
+        parse_seed,
+        plugin_facts,
+    )
 
     chosen = {"samplers": samplers} if samplers else {}
     number, start, counted = parse_count(realizations, "realizations"), parse_seed(seed), parse_counts(counts, "count")
@@ -65,11 +73,12 @@ def stability(
             progress=progress,
             **chosen,
         )
+    facts = plugin_facts(swept)
     if json:
         from json import dumps
 
-        typer.echo(dumps(swept.as_json(), allow_nan=False))
+        typer.echo(dumps(swept.as_json() | facts, allow_nan=False))
     else:
-        for line in [*swept.table(), *(f"wrote {file}" for file in swept.files)]:
+        for line in [*swept.table(), *(f"wrote {file}" for file in swept.files), *fact_lines(facts)]:
             typer.echo(line)
     return CHECK_FAILED if swept.wrong else 0

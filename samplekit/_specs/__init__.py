@@ -1,6 +1,6 @@
 """Declarations: plain data, no NumPy. Listing, completing and checking a request never imports an implementation."""
 
-from samplekit._specs.declaration import API_VERSION, CommandSpec
+from samplekit._specs.declaration import API_VERSION, CommandOption, CommandSpec
 from samplekit._specs.option import NAME, Option, OptionValue, written
 from samplekit._specs.promise import (
     GridStrata,
@@ -14,12 +14,13 @@ from samplekit._specs.randomizer import RandomizerSpec
 from samplekit._specs.sampler import SamplerSpec
 from samplekit._specs.scene import PIXEL_FILTER, SceneSpec
 
-Spec = SamplerSpec | RandomizerSpec | SceneSpec | CommandSpec
+Spec = SamplerSpec | RandomizerSpec | SceneSpec | CommandSpec | CommandOption
 
 __all__ = [
     "API_VERSION",
     "NAME",
     "PIXEL_FILTER",
+    "CommandOption",
     "CommandSpec",
     "GridStrata",
     "LatinStrata",

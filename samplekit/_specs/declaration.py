@@ -114,3 +114,41 @@ class CommandSpec(Declaration):
     >>> CommandSpec("gaps", "mine.command:gaps", "Distances to the nearest neighbours.").name
     'gaps'
     """
+
+
+@dataclass(frozen=True)
+class CommandOption(Declaration):
+    """What a plugin declares to add an option to a command.
+
+    ``target`` names a function that is called as ``function(result, value)`` when the command has its result: the
+    object that the public function behind the command returned, and the value of the option. It returns a dictionary of
+    facts, which the command prints and puts into its JSON, or None.
+
+    Parameters
+    ----------
+    name
+        The option is written ``--NAME``.
+    command
+        The command that takes it, such as ``"render"``.
+    default
+        Its type is the type of the value: int, float, str or bool; an option of type bool is a flag.
+
+    Examples
+    --------
+    >>> from samplekit import CommandOption
+    >>> CommandOption("peak", "mine.peak:peak", "Report the largest pixel.", command="render", default=False).command
+    'render'
+    """
+
+    command: str = field(default="", kw_only=True)
+    default: OptionValue = field(default=False, kw_only=True)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        require(isinstance(self.command, str) and bool(NAME.match(self.command)), f"{self.name}: name the command")
+        Option(self.name, self.default, self.summary)
+
+    @property
+    def option(self) -> Option:
+        """The option with its type."""
+        return Option(self.name, self.default, self.summary)

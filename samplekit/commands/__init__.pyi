@@ -4,6 +4,8 @@ from ._notices import announce_compilation as announce_compilation
 from ._options import JsonOption as JsonOption
 from ._options import SamplerOption as SamplerOption
 from ._options import SeedOption as SeedOption
+from ._plugin_options import fact_lines as fact_lines
+from ._plugin_options import plugin_facts as plugin_facts
 from ._progress import Progress as Progress
 from ._progress import Stages as Stages
 from ._statuses import CHECK_FAILED as CHECK_FAILED
