@@ -24,3 +24,32 @@ class UsageError(SamplekitError):
     ...     print("nearest" in str(error))
     True
     """
+
+
+class CountError(UsageError):
+    """A sampler cannot make the number of points that was asked for.
+
+    Attributes
+    ----------
+    count
+        The number that was asked for.
+    below, above
+        The nearest numbers that it makes; None where there is none.
+
+    Examples
+    --------
+    >>> import samplekit
+    >>> try:
+    ...     samplekit.points("jittered", count=97)
+    ... except samplekit.CountError as error:
+    ...     print(error.below, error.above)
+    96 98
+    """
+
+    def __init__(self, message: str, count: int, below: int | None, above: int | None) -> None:
+        # All of them are arguments of the exception, so that it survives pickling on its way from a worker.
+        super().__init__(message, count, below, above)
+        self.count, self.below, self.above = count, below, above
+
+    def __str__(self) -> str:
+        return str(self.args[0])

@@ -9,13 +9,12 @@ import numpy as np
 
 from samplekit._bases.realizations import Realizations, check_seed
 from samplekit._bases.sampler import Sampler
-from samplekit._errors import UsageError
+from samplekit._errors import CountError, UsageError
 from samplekit._guard import Guard
 from samplekit._memory import check_memory
 from samplekit._parsing import check_positive, parse_choice
 from samplekit._registry import BUILTIN, Offer, registry
 from samplekit._specs import written
-from samplekit._specs.counts import check_count
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -96,7 +95,7 @@ class ConfiguredSampler:
         Raises
         ------
         UsageError
-            Says what it makes, and the nearest counts.
+            Says what it makes; a :class:`CountError` if the count is at fault, with the nearest counts.
         SamplekitError
             The plugin raised.
         """
@@ -107,8 +106,9 @@ class ConfiguredSampler:
             span = f"{least}" if most == least else f"at least {least}" if most is None else f"{least} to {most}"
             raise UsageError(f"{self.text} makes points in {span} dimension{'' if most == 1 else 's'}, not {dims}")
         if count - 1 > self.spec.largest_index:
-            raise UsageError(f"{self.text} makes at most {self.spec.largest_index + 1} points, not {count}")
-        check_count(self.text, self.spec.counts, count, dims)
+            message = f"{self.text} makes at most {self.spec.largest_index + 1} points, not {count}"
+            raise CountError(message, count, self.spec.counts.below(self.spec.largest_index + 2, dims), None)
+        self.spec.counts.check(self.text, count, dims)
         self._sampler.check(count, dims, blocks)
 
     def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:

@@ -153,13 +153,12 @@ def check_points(scene: ConfiguredScene, sampler: ConfiguredSampler, count: int)
         if _reaches(sampler.spec, scene.dims):
             raise
         from samplekit._registry import registry
-        from samplekit._specs.counts import allows
 
         able = [
             name
             for name, offer in registry().all("sampler").items()
             if _reaches(offer.spec, scene.dims)
-            and allows(offer.spec.counts, count, scene.dims)
+            and offer.spec.counts.allows(count, scene.dims)
             and not offer.spec.required_options
         ]
         raise UsageError(f"{error}: {scene.text} needs {_needs(scene)}; {', '.join(able)} can") from None

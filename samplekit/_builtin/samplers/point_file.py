@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit import Sampler, UsageError
+from samplekit import Exactly, Sampler, UsageError
 from samplekit._parsing import parse_choice
 from samplekit.files import read_points
 
@@ -51,7 +51,7 @@ class PointFile(Sampler):
         return replace(
             spec,
             dimensions=(self.dims, self.dims),
-            counts=f"exactly-{self.count}",
+            counts=Exactly(self.count),
             randomized=several,
             period=self.sets if several else None,
         )
