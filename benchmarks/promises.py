@@ -13,20 +13,19 @@ import sys
 import time
 from typing import TYPE_CHECKING
 
-import numpy as np
 from scipy.spatial import cKDTree
 
 import samplekit
 from samplekit import MinimumDistance, Net, UsageError
 from samplekit._registry import registry
-from samplekit.testing._distance import densest_distance
-from samplekit.testing._nets import broken_box
-from samplekit.testing._strata import broken_cell, promised_grids
+from samplekit._specs import Strata
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from samplekit._configured.sampler import ConfiguredSampler
+    import numpy as np
+
+    from samplekit import ConfiguredSampler
 
 MOST_POINTS = 1 << 14
 BLOCKS = (0, 1, 5)
@@ -65,12 +64,12 @@ def makes(sampler: ConfiguredSampler, count: int, dims: int) -> bool:
 def sets(
     sampler: ConfiguredSampler, count: int, dims: int, realizations: int, start: int, seed: int
 ) -> Iterator[np.ndarray]:
-    """Points from ``start`` on, float64[R, D, n], in batches that fit into memory."""
+    """Yield points from ``start`` on, float64[R, n, D], in batches that fit into memory."""
     realizations = realizations if sampler.spec.randomized else 1
     points = sampler.points(count, dims, realizations=realizations, seed=seed, start=start)
     batch = max(1, (1 << 20) // points[0].size)
     for first in range(0, realizations, batch):
-        yield np.ascontiguousarray(points[first : first + batch].transpose(0, 2, 1))
+        yield points[first : first + batch]
 
 
 class Sweep:
@@ -101,56 +100,52 @@ class Sweep:
                 if not net.sequence and not makes(self.sampler, count, dims):
                     continue
                 for values in sets(self.sampler, count, dims, self.realizations, block * size, seed=m):
-                    found = broken_box(values[:, list(net.dims)], net.base, net.t)
+                    found = net.find_violation(values)
                     self.judge(found is None, f"{net} m={m} block {block}: {found}")
 
     def strata(self) -> None:
+        promises = self.sampler.spec.promised(Strata)
+        if not promises:
+            return
         least = self.sampler.spec.dimensions[0]
         for dims in sorted({min(max(d, least), self.most) for d in (1, 2, 3, 4, 5)}):
             for count in COUNTS + LARGE_COUNTS:
                 if not makes(self.sampler, count, dims):
                     continue
-                grids = [
-                    ties for promise in self.sampler.spec.promises for ties in promised_grids(promise, count, dims)
-                ]
-                if not grids:
-                    break
                 for values in sets(self.sampler, count, dims, self.realizations, 0, seed=count):
-                    for ties in grids:
-                        holds = any(broken_cell(values, grid) is None for grid in ties)
-                        self.judge(holds, f"{count} points in {dims}D: {ties}")
+                    for promise in promises:
+                        found = promise.find_violation(values)
+                        self.judge(found is None, f"{count} points in {dims}D: {found}")
 
     def distances(self, promise: MinimumDistance) -> None:
         dims = max(2, self.sampler.spec.dimensions[0])
         for count in DISTANCE_COUNTS:
-            densest = densest_distance(count, dims)
-            if densest is None or not makes(self.sampler, count, dims):
+            distance = promise.distance(count, dims)
+            if distance is None or not makes(self.sampler, count, dims):
                 continue
             for values in sets(self.sampler, count, dims, self.realizations, 0, seed=count):
                 for one in values:
-                    least = cKDTree(one.T, boxsize=1.0).query(one.T, 2)[0][:, 1].min()
-                    self.judge(least >= promise.fraction * densest - ROUNDING, f"{count} points: {least}")
+                    least = cKDTree(one, boxsize=1.0).query(one, 2)[0][:, 1].min()
+                    self.judge(least >= distance - ROUNDING, f"{count} points: {least}")
 
     def prefixes(self) -> None:
         progressive = self.sampler.spec.progressive
-        if progressive == "no":
+        if progressive is None:
             return
         dims = min(self.most, 5)
-        base = 2 if progressive == "every-count" else int(progressive.rpartition("-")[2])
-        lengths = {base**k for k in range(15) if base**k < 5000}
-        if progressive == "every-count":
-            lengths |= {1, 3, 16, 100, 1000} | {n + 1 for n in lengths} | {n - 1 for n in lengths if n > 1}
+        powers = {base**k for base in (2, 3, 5, 7) for k in range(15)}
+        wanted = {1, 3, 16, 100, 1000} | powers | {n + 1 for n in powers} | {n - 1 for n in powers}
+        lengths = {length for length in wanted if length < 5000 and progressive.allows(length, dims)}
         whole = self.sampler.points(5000, dims, realizations=self.realizations, seed=1)
         for length in sorted(lengths):
             short = self.sampler.points(length, dims, realizations=self.realizations, seed=1)
             self.judge(bool((short == whole[:, :length]).all()), f"prefix of {length}")
 
     def run(self) -> None:
-        for promise in self.sampler.spec.promises:
-            if isinstance(promise, Net):
-                self.nets(promise)
-            if isinstance(promise, MinimumDistance):
-                self.distances(promise)
+        for net in self.sampler.spec.promised(Net):
+            self.nets(net)
+        for distance in self.sampler.spec.promised(MinimumDistance):
+            self.distances(distance)
         self.strata()
         self.prefixes()
 

@@ -21,7 +21,6 @@ from scipy.stats import qmc
 
 import samplekit
 from samplekit import Realizations, UsageError
-from samplekit._specs.counts import nearest_below
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -92,7 +91,7 @@ def nearest_count(text: str, count: int) -> int:
     try:
         sampler.check(count, 2)
     except UsageError:
-        return nearest_below(sampler.spec.counts, count, 2) or count
+        return sampler.spec.counts.below(count, 2) or count
     return count
 
 

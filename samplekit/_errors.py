@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -18,6 +18,17 @@ class SamplekitError(Exception):
     >>> issubclass(samplekit.UsageError, samplekit.SamplekitError)
     True
     """
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Errors come back from other processes with all that they carry, whatever their constructors take.
+        return _restored, (type(self), self.args, vars(self))
+
+
+def _restored(kind: type[SamplekitError], args: tuple[Any, ...], attributes: dict[str, Any]) -> SamplekitError:
+    error = kind.__new__(kind)
+    error.args = args
+    vars(error).update(attributes)
+    return error
 
 
 class UsageError(SamplekitError):
@@ -85,6 +96,31 @@ class AmbiguousNameError(UsageError):
     def __init__(self, kind: str, name: str, plugins: Sequence[str], choices: Sequence[str]) -> None:
         self.choices = list(choices)
         super().__init__(f"{kind} {name!r} is offered by {' and '.join(plugins)}: write {' or '.join(choices)}")
+
+
+class CountError(UsageError):
+    """A sampler cannot make the number of points that was asked for.
+
+    Attributes
+    ----------
+    count
+        The number that was asked for.
+    below, above
+        The nearest numbers that it makes; None where there is none.
+
+    Examples
+    --------
+    >>> import samplekit
+    >>> try:
+    ...     samplekit.points("jittered", count=97)
+    ... except samplekit.CountError as error:
+    ...     print(error.below, error.above)
+    96 98
+    """
+
+    def __init__(self, message: str, count: int, below: int | None, above: int | None) -> None:
+        self.count, self.below, self.above = count, below, above
+        super().__init__(message)
 
 
 class DimensionsError(UsageError):

@@ -16,7 +16,7 @@ def samplers() -> list[SamplerSpec]:
     Examples
     --------
     >>> import samplekit
-    >>> [spec.name for spec in samplekit.samplers() if spec.progressive == "every-count"][:2]
+    >>> [spec.name for spec in samplekit.samplers() if spec.progressive == samplekit.AnyCount()][:2]
     ['halton', 'r2']
     """
     return [registration.spec for registration in registry().all("sampler").values()]

@@ -10,7 +10,7 @@ import pytest
 
 from samplekit import _registry as registry_module
 
-HEADER = "from samplekit import CommandSpec, Option, RandomizerSpec, SamplerSpec, SceneSpec, hookimpl\n"
+HEADER = "from samplekit import CommandSpec, Option, PowersOf, RandomizerSpec, SamplerSpec, SceneSpec, hookimpl\n"
 
 
 class Plugins:

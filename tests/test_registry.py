@@ -207,7 +207,10 @@ def test_an_entry_point_that_names_nothing_is_a_problem(plugins, entry):
         ("return [SamplerSpec('Toy', 'a:b', '')]", "failed: ValueError: bad name 'Toy'"),
         ("return [SamplerSpec('toy', 'a', '')]", "failed: ValueError: toy: bad target 'a'"),
         ("return [SamplerSpec('toy')]", "failed: TypeError"),
-        ("return [SamplerSpec('toy', 'a:b', '', counts='few')]", "failed: ValueError: toy: unknown counts 'few'"),
+        (
+            "return [SamplerSpec('toy', 'a:b', '', counts='few')]",
+            "failed: ValueError: toy: counts must be an object such as AnyCount() or PowersOf(2), not 'few'",
+        ),
         ("return [SamplerSpec('toy', 'a:b', '', speed=3)]", "failed: TypeError"),
         ("return [SamplerSpec('toy', 'a:b', '', api_version='x')]", "failed: "),
         (
@@ -497,7 +500,7 @@ def test_the_declaration_is_held_against_the_request(plugins):
     plugins.offer(
         "toys",
         "sampler",
-        'SamplerSpec("toy", "toy_points:Toy", "", dimensions=(2, 3), counts="powers-of-3", largest_index=80)',
+        'SamplerSpec("toy", "toy_points:Toy", "", dimensions=(2, 3), counts=PowersOf(3), largest_index=80)',
     )
     plugins.module("toy_points", POINTS)
     assert samplekit.points("toy", 81, 3).shape == (1, 81, 3)

@@ -35,7 +35,7 @@ def samplers() -> str:
             f"`{name}`",
             offer.spec.summary,
             words.short_dimensions(offer.spec),
-            words.short_counts(offer.spec),
+            offer.spec.counts.short(),
             words.short_progressive(offer.spec),
             words.short_promises(offer.spec.promises),
             _options(offer.spec),

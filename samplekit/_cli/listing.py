@@ -97,6 +97,7 @@ def _records(kind: str) -> list[dict[str, Any]]:
 
 
 def _record(name: str, spec: Spec, plugin: Plugin) -> dict[str, Any]:
+    from samplekit._cli import words
     from samplekit._specs import SamplerSpec
 
     record = {**asdict(spec), "name": name, "plugin": plugin.name}
@@ -106,6 +107,8 @@ def _record(name: str, spec: Spec, plugin: Plugin) -> dict[str, Any]:
     if isinstance(spec, SamplerSpec):
         # Largest indices pass 2^53, which many JSON readers round.
         record["largest_index"] = str(spec.largest_index)
+        record["counts"] = str(spec.counts)
+        record["progressive"] = words.progressive_word(spec)
         record["promises"] = [{"promise": promise.keyword, **asdict(promise)} for promise in spec.promises]
     return record
 
@@ -143,14 +146,13 @@ def _table(kind: str) -> tuple[list[str], list[list[str]]]:
 
 def _sampler_row(name: str, spec: Any) -> list[str]:
     from samplekit._cli import words
-    from samplekit._specs.counts import describe
 
     return [
         name,
         spec.summary,
         words.dimensions(spec),
-        describe(spec.counts),
-        spec.progressive.replace("-", " "),
+        spec.counts.describe(),
+        words.progressive_word(spec).replace("-", " "),
         "yes" if spec.randomized else "no",
         words.short_promises(spec.promises),
     ]
@@ -178,7 +180,7 @@ def _compact_samplers(wide: bool) -> tuple[list[str], list[list[str]]]:
         [
             name,
             words.short_dimensions(offer.spec),
-            words.short_counts(offer.spec),
+            offer.spec.counts.short(),
             words.short_progressive(offer.spec),
             "yes" if offer.spec.randomized else "no",
             words.short_promises(offer.spec.promises),

@@ -46,7 +46,7 @@ def describe(spec: SamplerSpec | SceneSpec | RandomizerSpec, plugin: Plugin) -> 
         rows["keeps"] = [", ".join(spec.keeps) or "no promise"]
     width = max((len(f"{option.name}={option.default}") for option in spec.options), default=0)
     rows["options"] = [
-        f"{f'{option.name}={option.default}':<{width}}  {words.option(option)}".rstrip() for option in spec.options
+        f"{f'{option.name}={option.default}':<{width}}  {option.describe()}".rstrip() for option in spec.options
     ]
     return {heading: lines for heading, lines in rows.items() if any(lines)}
 
@@ -60,7 +60,7 @@ def _sampler(spec: SamplerSpec) -> Rows:
         "random": [random],
         "unbiased": ["yes" if spec.unbiased else "no"],
         "largest index": [str(spec.largest_index)],
-        "promises": [words.promise(promise) for promise in spec.promises],
+        "promises": [promise.describe() for promise in spec.promises],
         "known to fail": [f"{check}: {reason}" for check, reason in spec.expected_failures.items()],
     }
     if spec.randomized:

@@ -14,11 +14,10 @@ from samplekit._checks import check_positive
 from samplekit._choices import parse_choice
 from samplekit._configured.configured import Configured, are_texts, not_installed, option_names
 from samplekit._configured.randomizer import ConfiguredRandomizer, randomizer
-from samplekit._errors import DimensionsError, UsageError
+from samplekit._errors import CountError, DimensionsError, UsageError
 from samplekit._memory import check_memory
 from samplekit._registry import registry
 from samplekit._specs import SamplerSpec
-from samplekit._specs.counts import check_count
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -132,8 +131,9 @@ class ConfiguredSampler(Configured):
         if dims < least or (most is not None and dims > most):
             raise DimensionsError(self.text, dims, least, most)
         if count - 1 > self.spec.largest_index:
-            raise UsageError(f"{self.text} makes at most {self.spec.largest_index + 1} points, not {count}")
-        check_count(self.text, self.spec.counts, count, dims)
+            message = f"{self.text} makes at most {self.spec.largest_index + 1} points, not {count}"
+            raise CountError(message, count, self.spec.counts.below(self.spec.largest_index + 2, dims), None)
+        self.spec.counts.check(self.text, count, dims)
         self._boundary.call("failed", lambda: self._sampler.check(count, dims, blocks))
 
     def prepare(self, count: int, dims: int, progress: Callable[[int, int], None] = lambda _, __: None) -> None:

@@ -125,10 +125,8 @@ def check_points(scene: ConfiguredScene, sampler: ConfiguredSampler, count: int)
 
 
 def _makes(spec: SamplerSpec, count: int, dims: int) -> bool:
-    from samplekit._specs.counts import allows
-
     least, most = spec.dimensions
-    return least <= dims and (most is None or dims <= most) and allows(spec.counts, count, dims)
+    return least <= dims and (most is None or dims <= most) and spec.counts.allows(count, dims)
 
 
 def _needs(scene: ConfiguredScene) -> str:

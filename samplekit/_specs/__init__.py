@@ -1,5 +1,15 @@
 """Declarations: plain data, no NumPy. Listing, completing and checking a request never imports an implementation."""
 
+from samplekit._specs.counts import (
+    AnyCount,
+    Counts,
+    Exactly,
+    FibonacciNumbers,
+    Powers,
+    PowersOf,
+    PrimePowers,
+    Products,
+)
 from samplekit._specs.declaration import API_VERSION, CommandOption, CommandSpec
 from samplekit._specs.option import NAME, Option, OptionValue, written
 from samplekit._specs.promise import (
@@ -9,6 +19,8 @@ from samplekit._specs.promise import (
     Net,
     OrthogonalArray,
     Promise,
+    Strata,
+    Violation,
 )
 from samplekit._specs.randomizer import RandomizerSpec
 from samplekit._specs.sampler import SamplerSpec
@@ -20,8 +32,12 @@ __all__ = [
     "API_VERSION",
     "NAME",
     "PIXEL_FILTER",
+    "AnyCount",
     "CommandOption",
     "CommandSpec",
+    "Counts",
+    "Exactly",
+    "FibonacciNumbers",
     "GridStrata",
     "LatinStrata",
     "MinimumDistance",
@@ -29,10 +45,16 @@ __all__ = [
     "Option",
     "OptionValue",
     "OrthogonalArray",
+    "Powers",
+    "PowersOf",
+    "PrimePowers",
+    "Products",
     "Promise",
     "RandomizerSpec",
     "SamplerSpec",
     "SceneSpec",
     "Spec",
+    "Strata",
+    "Violation",
     "written",
 ]

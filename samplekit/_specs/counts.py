@@ -1,41 +1,416 @@
-"""Which numbers of points a sampler can make, and the nearest to one that it cannot.
+"""Rules about which numbers of points a sampler can make. A rule is an object that answers questions.
 
-The rules are the words of ``SamplerSpec.counts``. Nothing here imports NumPy.
+``PowersOf(2).allows(64, dims=2)`` is true, ``PowersOf(2).nearest(100, dims=2)`` is [64, 128]. Nothing here imports
+NumPy.
 """
 
 from __future__ import annotations
 
+import itertools
 import math
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
 from functools import lru_cache
-from itertools import islice
 from typing import TYPE_CHECKING
 
-from samplekit._errors import UsageError
+from samplekit._errors import CountError
+from samplekit._specs.fields import integer, optional, require_fields
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Iterator
 
 LARGEST_ASPECT = 2
-"""A grid's longest side is at most this many times its shortest: beyond it strata are strips."""
+"""A grid's longest side is at most this many times its shortest: beyond it, cells would be strips."""
 _NEAR = 2000
-"""Counts on either side that are tried one by one."""
+"""So many counts on either side are tried one by one in search of a grid."""
+
+
+class Counts(ABC):
+    """A rule about which numbers of points a sampler can make.
+
+    A plugin may define rules of its own: a frozen dataclass that derives from this class.
+
+    Examples
+    --------
+    >>> from samplekit import Counts, PowersOf
+    >>> isinstance(PowersOf(2), Counts)
+    True
+    >>> PowersOf(2).nearest(100, dims=2)
+    [64, 128]
+    """
+
+    @abstractmethod
+    def allows(self, count: int, dims: int) -> bool:
+        """Tell whether sets of ``count`` points in ``dims`` dimensions can be made."""
+
+    @abstractmethod
+    def below(self, count: int, dims: int) -> int | None:
+        """Return the largest allowed count below ``count``; None if there is none."""
+
+    @abstractmethod
+    def above(self, count: int, dims: int) -> int | None:
+        """Return the smallest allowed count above ``count``; None if there is none."""
+
+    @abstractmethod
+    def describe(self) -> str:
+        """Say which counts are allowed: ``"powers of 2"``."""
+
+    def short(self) -> str:
+        """Say it for a narrow column: ``"2^m"``."""
+        return self.describe()
+
+    def __str__(self) -> str:
+        return self.describe()
+
+    @property
+    def depends_on_dims(self) -> bool:
+        """Whether other counts are allowed in another number of dimensions."""
+        return False
+
+    def nearest(self, count: int, dims: int) -> list[int]:
+        """Return ``[count]`` if it is allowed, otherwise the nearest allowed counts below and above, if they exist."""
+        if self.allows(count, dims):
+            return [count]
+        return [near for near in (self.below(count, dims), self.above(count, dims)) if near is not None]
+
+    def rising(self, count: int, dims: int) -> Iterator[int]:
+        """Yield the allowed counts above ``count``, smallest first. Most rules never end."""
+        following = self.above(count, dims)
+        while following is not None:
+            yield following
+            following = self.above(following, dims)
+
+    def check(self, name: str, count: int, dims: int) -> None:
+        """Raise unless a sampler called ``name`` can make ``count`` points.
+
+        Raises
+        ------
+        CountError
+            Names the nearest counts below and above that can be made.
+        """
+        if not self.allows(count, dims):
+            below, above = self.below(count, dims), self.above(count, dims)
+            message = self._refusal(name, count, dims) if count >= 1 else f"count {count}: expected at least 1"
+            raise CountError(message, count, below, above)
+
+    def _refusal(self, name: str, count: int, dims: int) -> str:
+        nearest = self.nearest(count, dims)
+        where = f" in {dims} dimensions" if self.depends_on_dims else ""
+        verb = "is" if len(nearest) == 1 else "are"
+        known = f": the nearest {verb} {' and '.join(map(str, nearest))}" if nearest else ""
+        return f"{name} makes {self.describe()}{where}, not {count}{known}"
+
+
+@dataclass(frozen=True)
+class AnyCount(Counts):
+    """Every number of points from 1 on.
+
+    Examples
+    --------
+    >>> from samplekit import AnyCount
+    >>> AnyCount().allows(97, dims=2)
+    True
+    """
+
+    def allows(self, count: int, dims: int) -> bool:
+        """See :meth:`Counts.allows`."""
+        return count >= 1
+
+    def below(self, count: int, dims: int) -> int | None:
+        """See :meth:`Counts.below`."""
+        return count - 1 if count > 1 else None
+
+    def above(self, count: int, dims: int) -> int:
+        """See :meth:`Counts.above`."""
+        return max(count, 0) + 1
+
+    def describe(self) -> str:
+        """See :meth:`Counts.describe`."""
+        return "any number"
+
+    def short(self) -> str:
+        """See :meth:`Counts.short`."""
+        return "any"
+
+    def __str__(self) -> str:
+        return "any"
+
+
+@dataclass(frozen=True)
+class Products(Counts):
+    """Numbers of cells of a grid whose longest side is at most twice its shortest; see :func:`grid_sides`.
+
+    Parameters
+    ----------
+    dims
+        The grid spans so many dimensions; None: all dimensions of the set.
+
+    Examples
+    --------
+    >>> from samplekit import Products
+    >>> Products().nearest(97, dims=2), Products(3).nearest(97, dims=2)
+    ([96, 98], [96, 100])
+    """
+
+    dims: int | None = None
+
+    def __post_init__(self) -> None:
+        require_fields(self, "Products", dims=(optional(integer(1)), "a positive integer or None"))
+
+    @property
+    def depends_on_dims(self) -> bool:
+        """See :attr:`Counts.depends_on_dims`."""
+        return self.dims is None
+
+    def allows(self, count: int, dims: int) -> bool:
+        """See :meth:`Counts.allows`."""
+        return count >= 1 and grid_sides(count, self.dims or dims) is not None
+
+    def below(self, count: int, dims: int) -> int | None:
+        """See :meth:`Counts.below`."""
+        near = range(count - 1, max(count - _NEAR, 0), -1)
+        found = next((n for n in near if self.allows(n, dims)), None)
+        return found if found or count <= _NEAR else _nearest_grid(count, self.dims or dims, -1)
+
+    def above(self, count: int, dims: int) -> int:
+        """See :meth:`Counts.above`."""
+        count = max(count, 0)
+        found = next((n for n in range(count + 1, count + _NEAR) if self.allows(n, dims)), None)
+        return found or _nearest_grid(count, self.dims or dims, +1)
+
+    def describe(self) -> str:
+        """See :meth:`Counts.describe`."""
+        number = {None: "", 2: "two "}.get(self.dims, f"{self.dims} ")
+        return f"products of {number}near-equal sides (a grid)"
+
+    def short(self) -> str:
+        """See :meth:`Counts.short`."""
+        return "a grid" if self.dims is None else f"a grid in {self.dims}D"
+
+    def __str__(self) -> str:
+        return "products" if self.dims is None else f"products-in-{self.dims}"
+
+
+@dataclass(frozen=True)
+class Powers(Counts):
+    """Powers with a fixed exponent: ``Powers(2)`` allows the squares 1, 4, 9, ...
+
+    Examples
+    --------
+    >>> from samplekit import Powers
+    >>> Powers(2).nearest(15, dims=2)
+    [9, 16]
+    """
+
+    degree: int
+
+    def __post_init__(self) -> None:
+        require_fields(self, type(self).__name__, degree=(integer(2), "an integer from 2 on"))
+
+    def allows(self, count: int, dims: int) -> bool:
+        """See :meth:`Counts.allows`."""
+        root = floor_root(count, self.degree)
+        return root**self.degree == count and self._is_root(root)
+
+    def below(self, count: int, dims: int) -> int | None:
+        """See :meth:`Counts.below`."""
+        roots = range(floor_root(count - 1, self.degree), 0, -1)
+        return next((root**self.degree for root in roots if self._is_root(root)), None)
+
+    def above(self, count: int, dims: int) -> int:
+        """See :meth:`Counts.above`."""
+        roots = itertools.count(floor_root(count, self.degree) + 1)
+        return int(next(root**self.degree for root in roots if self._is_root(root)))
+
+    def _is_root(self, root: int) -> bool:
+        return root >= 1
+
+    def describe(self) -> str:
+        """See :meth:`Counts.describe`."""
+        return {2: "squares", 3: "cubes"}.get(self.degree, f"powers with exponent {self.degree}")
+
+    def __str__(self) -> str:
+        return {2: "squares", 3: "cubes"}.get(self.degree, f"exponent-{self.degree}")
+
+
+@dataclass(frozen=True)
+class PrimePowers(Powers):
+    """Powers of primes with a fixed exponent: ``PrimePowers(2)`` allows 4, 9, 25, 49, ...
+
+    Examples
+    --------
+    >>> from samplekit import PrimePowers
+    >>> PrimePowers(2).nearest(50, dims=2)
+    [49, 121]
+    """
+
+    def _is_root(self, root: int) -> bool:
+        return _is_prime(root)
+
+    def describe(self) -> str:
+        """See :meth:`Counts.describe`."""
+        if self.degree in (2, 3):
+            return f"{super().describe()} of primes"
+        return f"powers of primes with exponent {self.degree}"
+
+    def short(self) -> str:
+        """See :meth:`Counts.short`."""
+        return f"prime^{self.degree}"
+
+    def __str__(self) -> str:
+        return f"prime-{super().__str__()}"
+
+
+@dataclass(frozen=True)
+class PowersOf(Counts):
+    """Powers of a base: 1, B, B^2, ...
+
+    Examples
+    --------
+    >>> from samplekit import PowersOf
+    >>> PowersOf(3).nearest(100, dims=2)
+    [81, 243]
+    """
+
+    base: int
+
+    def __post_init__(self) -> None:
+        require_fields(self, "PowersOf", base=(integer(2), "an integer from 2 on"))
+
+    def allows(self, count: int, dims: int) -> bool:
+        """See :meth:`Counts.allows`."""
+        while count > 1 and count % self.base == 0:
+            count //= self.base
+        return count == 1
+
+    def below(self, count: int, dims: int) -> int | None:
+        """See :meth:`Counts.below`."""
+        return self.above(count - 1, dims) // self.base if count > 1 else None
+
+    def above(self, count: int, dims: int) -> int:
+        """See :meth:`Counts.above`."""
+        power = 1
+        while power <= count:
+            power *= self.base
+        return power
+
+    def describe(self) -> str:
+        """See :meth:`Counts.describe`."""
+        return f"powers of {self.base}"
+
+    def short(self) -> str:
+        """See :meth:`Counts.short`."""
+        return f"{self.base}^m"
+
+    def __str__(self) -> str:
+        return f"powers-of-{self.base}"
+
+
+@dataclass(frozen=True)
+class FibonacciNumbers(Counts):
+    """The Fibonacci numbers 1, 2, 3, 5, 8, ...
+
+    Examples
+    --------
+    >>> from samplekit import FibonacciNumbers
+    >>> FibonacciNumbers().nearest(100, dims=2)
+    [89, 144]
+    """
+
+    def allows(self, count: int, dims: int) -> bool:
+        """See :meth:`Counts.allows`."""
+        return _fibonacci_pair(count)[1] == count
+
+    def below(self, count: int, dims: int) -> int | None:
+        """See :meth:`Counts.below`."""
+        return _fibonacci_pair(count)[0] if count > 1 else None
+
+    def above(self, count: int, dims: int) -> int:
+        """See :meth:`Counts.above`."""
+        return _fibonacci_pair(count + 1)[1]
+
+    def describe(self) -> str:
+        """See :meth:`Counts.describe`."""
+        return "Fibonacci numbers"
+
+    def short(self) -> str:
+        """See :meth:`Counts.short`."""
+        return "Fibonacci"
+
+    def __str__(self) -> str:
+        return "fibonacci"
+
+
+@dataclass(frozen=True)
+class Exactly(Counts):
+    """One number of points and no other: what a file of points has.
+
+    Examples
+    --------
+    >>> from samplekit import Exactly
+    >>> Exactly(100).nearest(64, dims=2)
+    [100]
+    """
+
+    count: int
+
+    def __post_init__(self) -> None:
+        require_fields(self, "Exactly", count=(integer(1), "a positive integer"))
+
+    def allows(self, count: int, dims: int) -> bool:
+        """See :meth:`Counts.allows`."""
+        return count == self.count
+
+    def below(self, count: int, dims: int) -> int | None:
+        """See :meth:`Counts.below`."""
+        return self.count if self.count < count else None
+
+    def above(self, count: int, dims: int) -> int | None:
+        """See :meth:`Counts.above`."""
+        return self.count if self.count > count else None
+
+    def describe(self) -> str:
+        """See :meth:`Counts.describe`."""
+        return f"exactly {self.count}"
+
+    def short(self) -> str:
+        """See :meth:`Counts.short`."""
+        return f"only {self.count}"
+
+    def __str__(self) -> str:
+        return f"exactly-{self.count}"
+
+    def _refusal(self, name: str, count: int, dims: int) -> str:
+        return f"{name} makes {self.describe()} points, not {count}"
 
 
 @lru_cache(4096)
 def grid_sides(count: int, dims: int) -> tuple[int, ...] | None:
-    """The sides of the grid of ``count`` cells that is nearest to a cube, longest first; None if it would be strips.
+    """Find the grid of ``count`` cells that is nearest to a cube.
 
-    ``grid_sides(96, 2)`` is (12, 8), ``grid_sides(97, 2)`` is None.
+    Parameters
+    ----------
+    count, dims
+        Number of cells and of dimensions, at least 1.
+
+    Returns
+    -------
+    The number of cells along each side, longest first; None if the longest would be more than twice the shortest.
+
+    Examples
+    --------
+    >>> from samplekit import grid_sides
+    >>> grid_sides(96, 2)
+    (12, 8)
+    >>> grid_sides(97, 2) is None
+    True
     """
     if dims >= count.bit_length():
-        # Fewer than 2^dims cells: some side is 1, so none is longer than 2.
+        # Fewer than 2^dims cells: the shortest side is 1, so none is longer than 2.
         twos = count.bit_length() - 1
         return (2,) * twos + (1,) * (dims - twos) if count == 1 << twos else None
-    best: tuple[int, ...] | None = None
-    for sides in _factorizations(count, dims, count):
-        if sides[0] <= LARGEST_ASPECT * sides[-1] and (best is None or sides[0] / sides[-1] < best[0] / best[-1]):
-            best = sides
-    return best
+    within = (sides for sides in _factorizations(count, dims, count) if sides[0] <= LARGEST_ASPECT * sides[-1])
+    return min(within, key=lambda sides: sides[0] / sides[-1], default=None)
 
 
 def _factorizations(count: int, dims: int, largest: int) -> list[tuple[int, ...]]:
@@ -53,103 +428,13 @@ def _factorizations(count: int, dims: int, largest: int) -> list[tuple[int, ...]
     ]
 
 
-def _is_power(count: int, base: int) -> bool:
-    while base > 1 and count % base == 0:
-        count //= base
-    return count == 1
-
-
-def _is_prime(n: int) -> bool:
-    return n >= 2 and all(n % divisor for divisor in range(2, math.isqrt(n) + 1))
-
-
-def _root(count: int, degree: int) -> int:
-    """The integer whose power ``degree`` is ``count``, or 0."""
-    root = round(count ** (1 / degree))
-    return next((r for r in (root - 1, root, root + 1) if r >= 0 and r**degree == count), 0)
-
-
-def fibonacci_numbers(least: int) -> tuple[int, ...]:
-    """The Fibonacci numbers 1, 1, 2, 3, 5, ... up to the first one that is larger than ``least``."""
-    numbers = [1, 1]
-    while numbers[-1] <= least:
-        numbers.append(numbers[-2] + numbers[-1])
-    return tuple(numbers)
-
-
-def _number_in(rule: str) -> int:
-    """The number that ends a rule such as ``powers-of-2``."""
-    return int(rule.rpartition("-")[2])
-
-
-def _rule(rule: str, dims: int) -> Callable[[int], bool]:
-    if rule == "any":
-        return lambda _: True
-    if rule == "products":
-        return lambda count: grid_sides(count, dims) is not None
-    if rule.startswith("products-in-"):
-        return lambda count: grid_sides(count, _number_in(rule)) is not None
-    if rule == "squares":
-        return lambda count: _root(count, 2) > 0
-    if rule == "prime-squares":
-        return lambda count: _is_prime(_root(count, 2))
-    if rule == "prime-cubes":
-        return lambda count: _is_prime(_root(count, 3))
-    if rule == "fibonacci":
-        return lambda count: count in fibonacci_numbers(count)
-    if rule.startswith("exactly-"):
-        return lambda count: count == _number_in(rule)
-    return lambda count: _is_power(count, _number_in(rule))
-
-
-def allows(rule: str, count: int, dims: int) -> bool:
-    """Whether a sampler of this rule makes ``count`` points in ``dims`` dimensions."""
-    return count >= 1 and _rule(rule, dims)(count)
-
-
-def nearest_below(rule: str, count: int, dims: int) -> int | None:
-    """The largest count below ``count`` that the rule allows; None if there is none."""
-    return next((n for n in _candidates(rule, count, dims, -1) if 1 <= n < count), None)
-
-
-def nearest_above(rule: str, count: int, dims: int) -> int | None:
-    """The smallest count above ``count`` that the rule allows; None if there is none."""
-    return next((n for n in _candidates(rule, count, dims, +1) if n > count), None)
-
-
-def _candidates(rule: str, count: int, dims: int, direction: int) -> list[int]:
-    """Allowed counts on one side of ``count``, nearest first: computed, where stepping by one would take for ever."""
-    count = max(count, 0)
-    degree = {"squares": 2, "prime-squares": 2, "prime-cubes": 3}.get(rule)
-    if degree:
-        root = math.floor(max(count, 1) ** (1 / degree) + 1e-9)
-        roots = range(root + 1, 0, -1) if direction < 0 else range(max(root - 1, 1), 2 * root + 8)
-        allowed = _is_prime if rule.startswith("prime") else lambda _: True
-        return list(islice((r**degree for r in roots if (r**degree - count) * direction > 0 and allowed(r)), 1))
-    if rule.startswith("powers-of-"):
-        base = _number_in(rule)
-        exponent = 0 if base == 1 else int(math.log(max(count, 1), base))
-        powers = [base ** max(exponent + step, 0) for step in ((1, 0, -1) if direction < 0 else (-1, 0, 1, 2))]
-        return [n for n in powers if (n - count) * direction > 0][:1]
-    if rule == "fibonacci":
-        return [n for n in fibonacci_numbers(count)[::direction] if (n - count) * direction > 0][:1]
-    if rule.startswith("exactly-"):
-        return [_number_in(rule)]
-    test = _rule(rule, dims)
-    near = range(count + direction, max(count + direction * _NEAR, 0), direction)
-    found = next((n for n in near if test(n)), None)
-    if found is not None or (count <= _NEAR and direction < 0):
-        return [] if found is None else [found]
-    return [_nearest_grid(count, dims if rule == "products" else _number_in(rule), direction)]
-
-
 def _nearest_grid(count: int, dims: int, direction: int) -> int:
-    """The nearest count below or above that has a grid, by branch and bound over the sides, longest first.
+    """Find the nearest count below (-1) or above (+1) that has a grid, by branch and bound over the sides.
 
-    For grids of many dimensions, which lie so far apart that stepping by one would take for ever, and are few.
+    Grids of many dimensions are few and far apart: stepping from one count to the next would take for ever.
     """
     if dims > count.bit_length():
-        # Some side is 1 below 2^dims cells, so none is longer than 2.
+        # Fewer than 2^dims cells: the shortest side is 1, so none is longer than 2.
         return 1 << (count.bit_length() - 1 - (direction < 0 and count.bit_count() == 1) + (direction > 0))
     best = 0 if direction < 0 else (2 ** (count.bit_length() + dims)) ** 2
     limit = count + direction
@@ -174,39 +459,24 @@ def _nearest_grid(count: int, dims: int, direction: int) -> int:
     return best
 
 
-def describe(rule: str) -> str:
-    """The rule in words: what a sampler of this rule makes."""
-    words = {
-        "any": "any number",
-        "products": "products of near-equal sides (a grid)",
-        "squares": "squares",
-        "prime-squares": "squares of primes",
-        "prime-cubes": "cubes of primes",
-        "fibonacci": "Fibonacci numbers",
-    }
-    if rule.startswith("products-in-"):
-        number = _number_in(rule)
-        return f"products of {'two' if number == 2 else number} near-equal sides (a grid)"
-    if rule.startswith("exactly-"):
-        return f"exactly {_number_in(rule)}"
-    return words.get(rule) or f"powers of {_number_in(rule)}"
+def floor_root(count: int, degree: int) -> int:
+    """Return the largest integer whose power ``degree`` is at most ``count``; 0 below 1."""
+    root: int = round(max(count, 0) ** (1 / degree))
+    while root**degree > max(count, 0):
+        root -= 1
+    while (root + 1) ** degree <= count:
+        root += 1
+    return root
 
 
-def check_count(name: str, rule: str, count: int, dims: int) -> None:
-    """Raise unless a sampler called ``name`` makes ``count`` points.
+def _is_prime(number: int) -> bool:
+    """Tell whether a number is prime, by trial division."""
+    return number >= 2 and all(number % divisor for divisor in range(2, math.isqrt(number) + 1))
 
-    Raises
-    ------
-    UsageError
-        Names the nearest counts below and above that it makes.
-    """
-    if count < 1:
-        raise UsageError(f"count {count}: expected at least 1")
-    if allows(rule, count, dims):
-        return
-    if rule.startswith("exactly-"):
-        raise UsageError(f"{name} makes {describe(rule)} points, not {count}")
-    nearest = [str(n) for n in (nearest_below(rule, count, dims), nearest_above(rule, count, dims)) if n is not None]
-    where = "" if rule != "products" else f" in {dims} dimensions"
-    verb = "is" if len(nearest) == 1 else "are"
-    raise UsageError(f"{name} makes {describe(rule)}{where}, not {count}: the nearest {verb} {' and '.join(nearest)}")
+
+def _fibonacci_pair(count: int) -> tuple[int, int]:
+    """Return two successive Fibonacci numbers of which the second is the first that is at least ``count``."""
+    before, number = 1, 1
+    while number < count:
+        before, number = number, before + number
+    return before, number

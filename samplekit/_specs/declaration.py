@@ -1,4 +1,4 @@
-"""What every declaration has in common."""
+"""What all declarations have in common."""
 
 from __future__ import annotations
 
@@ -10,8 +10,9 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from samplekit._errors import SamplekitError, UsageError
-from samplekit._quoting import quoted, reason
-from samplekit._specs.option import NAME, Option, OptionValue, is_line, require
+from samplekit._quoting import reason
+from samplekit._specs.fields import instance_of, integer, is_line, require_fields, tuple_of
+from samplekit._specs.option import NAME, Option, OptionValue
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -20,14 +21,25 @@ API_VERSION = 1
 TARGET = re.compile(r"^[A-Za-z_][\w.]*:[A-Za-z_]\w*\Z")
 
 
-def is_integer(value: object) -> bool:
-    """Whether it is an integer, and no truth value."""
-    return isinstance(value, int) and not isinstance(value, bool)
-
-
 @dataclass(frozen=True)
 class Declaration:
-    """What every declaration has: a name, where its code is, a line of summary, options, a paper."""
+    """What every declaration has.
+
+    Parameters
+    ----------
+    name
+        As written on the command line: ``[a-z][a-z0-9-]*``.
+    target
+        Where the implementation is: ``"package.module:Class"``. It is imported when it is first used.
+    summary
+        One line for lists.
+    options
+        What can be set, and its defaults.
+    reference
+        The paper that describes it.
+    api_version
+        The plugin interface that it was written for.
+    """
 
     name: str
     target: str
@@ -37,26 +49,25 @@ class Declaration:
     api_version: int = field(default=API_VERSION, kw_only=True)
 
     def __post_init__(self) -> None:
-        require(
-            isinstance(self.name, str) and bool(NAME.match(self.name)), f"bad name {self.name!r}: want [a-z][a-z0-9-]*"
+        if not (isinstance(self.name, str) and NAME.match(self.name)):
+            raise ValueError(f"bad name {self.name!r}: want [a-z][a-z0-9-]*")
+        if not (isinstance(self.target, str) and TARGET.match(self.target)):
+            raise ValueError(f"{self.name}: bad target {self.target!r}: want 'package.module:Class'")
+        require_fields(
+            self,
+            self.name,
+            summary=(is_line, "text of one line"),
+            reference=(is_line, "text of one line"),
+            options=(tuple_of(instance_of(Option)), "a tuple of options, each an Option"),
+            api_version=(integer(1), "a positive integer"),
         )
-        require(
-            isinstance(self.target, str) and bool(TARGET.match(self.target)),
-            f"{self.name}: bad target {self.target!r}: want 'package.module:Class'",
-        )
-        for word in ("summary", "reference"):
-            require(is_line(getattr(self, word)), f"{self.name}: the {word} must be text of one line")
-        require(isinstance(self.options, tuple), f"{self.name}: options must be a tuple")
-        for option in self.options:
-            require(isinstance(option, Option), f"{self.name}: {quoted(option)} is no Option")
-        names = [option.name for option in self.options]
-        require(len(set(names)) == len(names), f"{self.name}: an option is declared twice")
-        require(is_integer(self.api_version), f"{self.name}: api_version must be an integer")
-        require(
-            self.api_version <= API_VERSION,
-            f"{self.name}: made for plugin interface {self.api_version}, this samplekit has {API_VERSION}:"
-            " upgrade samplekit-core",
-        )
+        if len({option.name for option in self.options}) < len(self.options):
+            raise ValueError(f"{self.name}: an option is declared twice")
+        if self.api_version > API_VERSION:
+            raise ValueError(
+                f"{self.name}: made for plugin interface {self.api_version}, this samplekit has {API_VERSION}:"
+                " upgrade samplekit-core"
+            )
 
     def load(self) -> Any:
         """Import the implementation and return it.
@@ -76,11 +87,11 @@ class Declaration:
 
     @property
     def required_options(self) -> tuple[str, ...]:
-        """Names of the options without which there is none of these: a file's path, say."""
+        """Names of the options that must be given, such as the path of a file."""
         return tuple(option.name for option in self.options if option.required)
 
     def parse_options(self, given: Mapping[str, object]) -> dict[str, OptionValue]:
-        """All options with their values: those given, parsed, and the defaults of the rest.
+        """Return the values of all options: those given, parsed, and the defaults of the rest.
 
         Raises
         ------
@@ -145,7 +156,8 @@ class CommandOption(Declaration):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        require(isinstance(self.command, str) and bool(NAME.match(self.command)), f"{self.name}: name the command")
+        if not (isinstance(self.command, str) and NAME.match(self.command)):
+            raise ValueError(f"{self.name}: command must be the name of a command")
         Option(self.name, self.default, self.summary)
 
     @property

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 import operator
 import re
-import unicodedata
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, SupportsFloat, SupportsIndex
 
 from samplekit._errors import UsageError
+from samplekit._specs.fields import instance_of, is_flag, is_line, is_number, optional, require_fields, tuple_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -17,22 +17,6 @@ if TYPE_CHECKING:
 NAME = re.compile(r"^[a-z][a-z0-9-]*\Z")
 
 OptionValue = int | float | str | bool
-
-
-def require(condition: bool, message: str) -> None:
-    """Raise ValueError with the message unless the condition holds."""
-    if not condition:
-        raise ValueError(message)
-
-
-def is_line(text: object) -> bool:
-    """Whether it is text without line ends, tabs and other control characters."""
-    return isinstance(text, str) and (text.isprintable() or not any(unicodedata.category(c) == "Cc" for c in text))
-
-
-def is_number(value: object) -> bool:
-    """Whether it is an int or a float, and not NaN."""
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and value == value
 
 
 @dataclass(frozen=True)
@@ -46,13 +30,13 @@ class Option:
     default
         Its type is the option's type: int, float, str or bool.
     summary
-        One line for help.
+        One line for help: what the option means.
     minimum, maximum
-        Inclusive range of a number. ``maximum=math.inf`` lets infinity in; nothing lets NaN in.
+        Inclusive range of a number. ``maximum=math.inf`` allows infinity; NaN is never allowed.
     choices
-        The words that a string option takes; empty for free text.
+        The words that a text option takes. Empty: any text.
     required
-        It must be given: ``default`` tells its type alone.
+        Whether the option must be given. ``default`` then only states its type.
 
     Examples
     --------
@@ -70,19 +54,19 @@ class Option:
     required: bool = False
 
     def __post_init__(self) -> None:
-        require(isinstance(self.name, str) and bool(NAME.match(self.name)), f"bad option name {self.name!r}")
-        who = f"option {self.name}"
-        require(type(self.default) in (int, float, str, bool), f"{who}: the default must be an int, float, str or bool")
-        require(is_line(self.summary), f"{who}: the summary must be text of one line")
-        for end in (self.minimum, self.maximum):
-            require(end is None or is_number(end), f"{who}: bounds must be numbers or None")
-        require(
-            isinstance(self.choices, tuple) and all(isinstance(choice, str) for choice in self.choices),
-            f"{who}: choices must be a tuple of text",
+        if not (isinstance(self.name, str) and NAME.match(self.name)):
+            raise ValueError(f"bad option name {self.name!r}")
+        bound = optional(is_number), "a number or None"
+        require_fields(
+            self,
+            f"option {self.name}",
+            default=(_is_default, "a finite int or float, a str or a bool"),
+            summary=(is_line, "text of one line"),
+            minimum=bound,
+            maximum=bound,
+            choices=(tuple_of(instance_of(str)), "a tuple of text"),
+            required=(is_flag, "True or False"),
         )
-        require(isinstance(self.required, bool), f"{who}: required must be True or False")
-        if isinstance(self.default, float):
-            require(math.isfinite(self.default), f"{who}: the default must be finite")
         if not self.required:
             try:
                 self.parse(self.default)
@@ -90,42 +74,53 @@ class Option:
                 raise ValueError(f"the default of {error}") from None
 
     def parse(self, value: object) -> OptionValue:
-        """Turn text or a Python value into this option's type, or say what would be right.
+        """Convert text or a Python value to this option's type.
 
         Raises
         ------
         UsageError
             Wrong type, NaN, or outside the range or the choices.
         """
-        kind = type(self.default)
-        expected = {bool: "true or false", int: "an integer", float: "a number", str: "text"}[kind]
-        if self.choices:
-            expected = " or ".join(self.choices)
         try:
-            parsed = _convert(kind, value)
+            parsed = _convert(type(self.default), value)
+            fits = self._fits(parsed)
         except (TypeError, ValueError, OverflowError):
-            raise UsageError(f"option {self.name}={value}: expected {expected}{self._range()}") from None
-        if self.choices and parsed not in self.choices:
-            raise UsageError(f"option {self.name}={value}: expected {expected}")
-        if isinstance(parsed, (int, float)) and not isinstance(parsed, bool) and not self._inside(parsed):
-            raise UsageError(f"option {self.name}={value}: expected {expected}{self._range()}")
+            fits = False
+        if not fits:
+            raise UsageError(f"option {self.name}={value}: expected {self._expected()}")
         return parsed
 
-    def _inside(self, value: float) -> bool:
+    def _fits(self, value: OptionValue) -> bool:
+        if self.choices:
+            return value in self.choices
+        if isinstance(value, (bool, str)):
+            return True
         if math.isnan(value) or (math.isinf(value) and self.maximum != math.inf):
             return False
         return (self.minimum is None or value >= self.minimum) and (self.maximum is None or value <= self.maximum)
 
-    def _range(self) -> str:
-        if self.choices or (self.minimum is None and self.maximum is None):
-            return ", finite" if isinstance(self.default, float) and not self.choices else ""
+    def _expected(self) -> str:
+        if self.choices:
+            return " or ".join(self.choices)
+        kind = type(self.default)
+        expected = {bool: "true or false", int: "an integer", float: "a number", str: "text"}[kind]
+        if self.minimum is None and self.maximum is None:
+            return f"{expected}, finite" if kind is float else expected
         low = "" if self.minimum is None else f" of at least {self.minimum:g}"
         high = "" if self.maximum is None else f" of at most {self.maximum:g}"
-        return (low and high and f" from {self.minimum:g} to {self.maximum:g}") or low or high
+        return expected + ((low and high and f" from {self.minimum:g} to {self.maximum:g}") or low or high)
+
+    def describe(self) -> str:
+        """Say what the option means and takes: ``"of the disk; 0 and more"``."""
+        takes = " or ".join(self.choices)
+        if not takes and (self.minimum is not None or self.maximum is not None):
+            low = "any" if self.minimum is None else f"{self.minimum:g}"
+            takes = f"{low} and more" if self.maximum is None else f"{low} to {self.maximum:g}"
+        return "; ".join(part for part in (self.summary, takes) if part) + (" (required)" if self.required else "")
 
 
 def written(name: str, given: Mapping[str, object], values: Mapping[str, OptionValue]) -> str:
-    """``NAME:option=value,...`` as on the command line, with the options that were given, each as its shortest text."""
+    """Write ``NAME:option=value,...`` as on the command line: the options in ``given``, each as short as can be."""
     chosen = ",".join(f"{option}={_shortest(value)}" for option, value in values.items() if option in given)
     return f"{name}:{chosen}" if chosen else name
 
@@ -136,8 +131,12 @@ def _shortest(value: OptionValue) -> str:
     return str(value).removesuffix(".0") if isinstance(value, float) else str(value)
 
 
+def _is_default(value: object) -> bool:
+    return type(value) in (int, str, bool) or (type(value) is float and math.isfinite(value))
+
+
 def _convert(kind: type, value: object) -> OptionValue:
-    """The value as an instance of ``kind``; ValueError where that would change it."""
+    """Return the value as an instance of ``kind``; raise ValueError where that would change it."""
     if kind is str and isinstance(value, str):
         return value
     if kind is bool and (isinstance(value, bool) or value in ("true", "false")):

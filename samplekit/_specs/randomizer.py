@@ -1,21 +1,26 @@
-"""What a randomizer says of itself before its code is imported."""
+"""What a randomizer declares, before its code is imported."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import get_args
 
-from samplekit._specs.declaration import Declaration, is_integer
-from samplekit._specs.option import require
-from samplekit._specs.promise import Promise
+from samplekit._specs.declaration import Declaration
+from samplekit._specs.fields import integer, is_flag, require_fields, tuple_of
+from samplekit._specs.promise import kinds_of_promises
 
 
 @dataclass(frozen=True)
 class RandomizerSpec(Declaration):
-    """What a randomizer declares.
+    """What a randomizer declares, besides what every :class:`Declaration` has.
 
-    ``keeps`` names the kinds of promise that survive it: ``net``, ``latin``, ``grid``, ``orthogonal-array``,
-    ``distance``; ``largest_index`` is that of a point whose digits it can still tell apart.
+    Parameters
+    ----------
+    keeps
+        The kinds of promise that survive it: ``net``, ``latin``, ``grid``, ``orthogonal-array``, ``distance``.
+    largest_index
+        Largest index of a point that it can randomize: the digits of larger ones would be cut off.
+    unbiased
+        Whether the mean of estimates over realisations is the integral.
 
     Examples
     --------
@@ -30,13 +35,11 @@ class RandomizerSpec(Declaration):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        kinds = {promise.keyword for promise in get_args(Promise)}
-        require(
-            isinstance(self.keeps, tuple) and all(isinstance(kind, str) and kind in kinds for kind in self.keeps),
-            f"{self.name}: keeps must be a tuple of {', '.join(sorted(kinds))}",
+        kinds = kinds_of_promises()
+        require_fields(
+            self,
+            self.name,
+            keeps=(tuple_of(lambda kind: kind in kinds), f"a tuple of {', '.join(kinds)}"),
+            largest_index=(integer(0, 2**64 - 1), "an integer from 0 to 2^64 - 1"),
+            unbiased=(is_flag, "True or False"),
         )
-        require(
-            is_integer(self.largest_index) and 0 <= self.largest_index < 2**64,
-            f"{self.name}: largest_index must be from 0 to 2^64 - 1",
-        )
-        require(isinstance(self.unbiased, bool), f"{self.name}: unbiased must be True or False")

@@ -1,12 +1,13 @@
-"""What a scene says of itself before its code is imported."""
+"""What a scene declares, before its code is imported."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
 from typing import Literal, get_args
 
-from samplekit._specs.declaration import Declaration, is_integer
-from samplekit._specs.option import Option, require
+from samplekit._specs.declaration import Declaration
+from samplekit._specs.fields import integer, require_fields, tuple_of
+from samplekit._specs.option import Option
 
 PIXEL_FILTER = Option("pixel-filter", "box", "mean over the pixel, or its centre alone", choices=("box", "center"))
 
@@ -16,19 +17,27 @@ PURPOSES: tuple[Purpose, ...] = get_args(Purpose)
 
 
 def _is_purpose(pair: object) -> bool:
-    """Whether it is a purpose and a number of dimensions."""
-    return isinstance(pair, tuple) and len(pair) == 2 and pair[0] in PURPOSES and is_integer(pair[1]) and pair[1] >= 1
+    return isinstance(pair, tuple) and len(pair) == 2 and pair[0] in PURPOSES and integer(1)(pair[1])
+
+
+def _is_setting(text: object) -> bool:
+    return isinstance(text, str) and "=" in text
 
 
 @dataclass(frozen=True)
 class SceneSpec(Declaration):
-    """What a scene declares: ``purposes`` are the blocks of dimensions that it may need, in their order.
+    """What a scene declares, besides what every :class:`Declaration` has.
 
-    ``further`` are dimensions that are none of pixel, lens, time and direction, such as the bounces of a path.
-    ``extremes`` are options that take the scene from mild to stiff, one text each (``"sigma=1e-12"``): what
-    ``samplekit stability`` sweeps.
+    Every scene with pixel dimensions also takes the option ``pixel-filter``, which its code never sees.
 
-    Every scene with pixel dimensions also takes the option ``pixel-filter``, which it never sees itself.
+    Parameters
+    ----------
+    purposes
+        The blocks of dimensions that the scene may need, in their order: a purpose and a number of dimensions each.
+        ``further`` dimensions are none of pixel, lens, time and direction, such as the bounces of a path.
+    extremes
+        Options that take the scene from mild to stiff, one text each (``"sigma=1e-12"``): what ``samplekit stability``
+        sweeps.
 
     Examples
     --------
@@ -43,13 +52,14 @@ class SceneSpec(Declaration):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        require(
-            isinstance(self.purposes, tuple) and all(map(_is_purpose, self.purposes)),
-            f"{self.name}: purposes must be pairs of {', '.join(PURPOSES)} and a number of dimensions",
-        )
-        require(
-            isinstance(self.extremes, tuple) and all(isinstance(text, str) and "=" in text for text in self.extremes),
-            f"{self.name}: extremes must be a tuple of texts such as 'sigma=1e-12'",
+        require_fields(
+            self,
+            self.name,
+            purposes=(
+                tuple_of(_is_purpose),
+                f"a tuple of pairs: one of {', '.join(PURPOSES)} and a number of dimensions",
+            ),
+            extremes=(tuple_of(_is_setting), "a tuple of texts such as 'sigma=1e-12'"),
         )
         if any(purpose == "pixel" for purpose, _ in self.purposes) and PIXEL_FILTER not in self.options:
             object.__setattr__(self, "options", (*self.options, PIXEL_FILTER))

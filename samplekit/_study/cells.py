@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from samplekit._errors import UsageError
+from samplekit._errors import CountError, UsageError
 from samplekit._integrate.plan import check_points
-from samplekit._specs.counts import allows, nearest_below
 from samplekit._study.results import LeftOut
 
 if TYPE_CHECKING:
@@ -75,21 +74,17 @@ def lay_out(request: Request, subjects: Subjects) -> tuple[list[Cell], list[Left
 
 def _possible(scene: ConfiguredScene, sampler: ConfiguredSampler, asked: int) -> tuple[int | None, str]:
     """The largest count up to ``asked`` that there can be, and why it is another; None: there is none."""
-    first_reason = ""
-    count: int | None = asked
+    first_reason, count = "", asked
     for _ in range(_MOST_STEPS):
-        if count is None:
-            break
         try:
             check_points(scene, sampler, count)
             return count, first_reason
         except UsageError as error:
             first_reason = first_reason or str(error)
-            if allows(sampler.spec.counts, count, scene.dims) and count - 1 <= sampler.spec.largest_index:
-                # The count is not what is wrong, as far as the declaration tells: fewer points do not help.
-                return None, first_reason
-            start = min(count, sampler.spec.largest_index + 2)
-            count = nearest_below(sampler.spec.counts, start, scene.dims)
+            if not isinstance(error, CountError) or error.below is None:
+                # Fewer points do not help: the count is not what is wrong, or there is none below.
+                break
+            count = error.below
     return None, first_reason
 
 
@@ -123,12 +118,5 @@ def _cell(
         scene.dims,
         trials,
         tuple(notes),
-        _is_prefix(spec.progressive, count),
+        spec.progressive is not None and spec.progressive.allows(count, scene.dims),
     )
-
-
-def _is_prefix(progressive: str, count: int) -> bool:
-    """Whether a set of ``count`` points is a prefix of the larger ones, as far as the declaration promises."""
-    if progressive == "no":
-        return False
-    return progressive == "every-count" or allows(progressive, count, 1)

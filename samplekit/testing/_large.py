@@ -8,7 +8,7 @@ import numpy as np
 
 from samplekit._bases.realizations import Realizations
 from samplekit._specs import Net
-from samplekit.testing._declared import allows, dims_of
+from samplekit.testing._declared import dims_of
 from samplekit.testing._nets import judge_net
 from samplekit.testing._prefix import judge_part
 from samplekit.testing._range import judge_range, outside
@@ -23,15 +23,10 @@ EXTREMES = (0, 1, 255, 256, 2**16 + 1, 2**31 - 1, 2**32 - 1)
 
 
 def _counts(subject: Subject, dims: int) -> list[int]:
-    """Declared counts just above each place, and the largest one."""
+    """Return declared counts just above each place, and the largest one."""
     most = subject.spec.largest_index + 1
     wanted = [n for place in PLACES for n in (place + _POINTS, 2 * place, place)] + [2**30, 2**20, most]
-    rule = subject.spec.counts
-    # A grid of 2^32 cells is found at once as a square; by trying divisors it would take for ever.
-    if rule.startswith("products"):
-        sides = dims if rule == "products" else int(rule.rpartition("-")[2])
-        return [2 ** (sides * k) for k in range(8, 33) if 2 ** (sides * k) <= most and 2 ** (sides * k) >= 2**16]
-    return sorted({n for n in wanted if 2**16 <= n <= most and allows(rule, n, dims)})
+    return sorted({n for n in wanted if 2**16 <= n <= most and subject.spec.counts.allows(n, dims)})
 
 
 @check("large-index", 16)
@@ -66,8 +61,8 @@ def check_large_index(subject: Subject) -> None:
 
 def _judge_late_blocks(subject: Subject) -> None:
     """Blocks of a promised (t, s)-sequence about the places are nets."""
-    for net in subject.spec.promises:
-        if not isinstance(net, Net) or not net.sequence:
+    for net in subject.spec.promised(Net):
+        if not net.sequence:
             continue
         dims = dims_of(subject.spec, max(net.dims) + 1)
         if max(net.dims) >= dims:
@@ -79,7 +74,7 @@ def _judge_late_blocks(subject: Subject) -> None:
             count = net.base
             while count < place + block:
                 count *= net.base
-            if count > subject.spec.largest_index + 1 or not allows(subject.spec.counts, count, dims):
+            if count > subject.spec.largest_index + 1 or not subject.spec.counts.allows(count, dims):
                 continue
             start = place // block * block
             values = subject.fill(Realizations.of_trials(0, 2, 0), count, dims, start, block)

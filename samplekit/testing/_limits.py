@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit._errors import UsageError
-from samplekit.testing._declared import allows
+from samplekit._errors import CountError, UsageError
 from samplekit.testing._result import CheckFailed, CounterExample, check
 
 if TYPE_CHECKING:
@@ -17,7 +16,6 @@ if TYPE_CHECKING:
     from samplekit.testing._subject import Subject
 
 COUNTS = (2, 3, 5, 6, 7, 11, 12, 13, 15, 17, 31, 48, 63, 64, 65, 97, 100, 127, 129, 1000, 1009)
-_FURTHEST = 5000
 
 
 @check("limits", 15)
@@ -26,51 +24,53 @@ def check_limits(subject: Subject) -> None:
     least, most = subject.spec.dimensions
     dims = subject.dims(2)
     if least > 1:
-        _refused(subject, subject.counts(4, dims=dims)[0], least - 1, str(least))
+        _refused(subject, subject.counts(4, dims=dims)[0], least - 1, least)
     if most is not None:
-        _refused(subject, subject.counts(4, dims=dims)[0], most + 1, str(most))
+        _refused(subject, subject.counts(4, dims=dims)[0], most + 1, most)
     for count in COUNTS:
-        if allows(subject.spec.counts, count, dims) and count <= subject.spec.largest_index + 1:
+        if subject.spec.counts.allows(count, dims) and count <= subject.spec.largest_index + 1:
             _accepted(subject, count, dims)
             _made_in_full(subject, count, dims)
         else:
             _refused_count(subject, count, dims)
     largest = subject.spec.largest_index
     if largest < 2**63:
-        _refused(subject, largest + 2, dims, str(largest + 1))
+        _refused(subject, largest + 2, dims, largest + 1)
     _all_dimensions_differ(subject)
 
 
-def _refused(subject: Subject, count: int, dims: int, names: str) -> None:
-    message = _refusal(subject, count, dims)
-    if names not in re.findall(r"\d+", message):
-        raise CheckFailed(
-            f"the error does not name {names}: {message!r}", CounterExample(subject.text, count, dims)
-        ) from None
+def _refused(subject: Subject, count: int, dims: int, names: int) -> None:
+    refusal = str(_refusal(subject, count, dims))
+    if not _names(refusal, names):
+        raise CheckFailed(f"the error does not name {names}: {refusal!r}", CounterExample(subject.text, count, dims))
+
+
+def _names(text: str, number: int) -> bool:
+    return str(number) in re.findall(r"\d+", text)
 
 
 def _refused_count(subject: Subject, count: int, dims: int) -> None:
-    """The error names the nearest allowed counts below and above, found here by stepping."""
-    message = _refusal(subject, count, dims)
-    rule, numbers = subject.spec.counts, re.findall(r"\d+", message)
+    """Raise unless the error carries the nearest allowed counts below and above, and its message names them."""
+    refusal = _refusal(subject, count, dims)
+    carried = (refusal.below, refusal.above) if isinstance(refusal, CountError) else (None, None)
     most = subject.spec.largest_index + 1
-    below = next((n for n in range(count - 1, 0, -1) if allows(rule, n, dims)), None)
-    above = next((n for n in range(count + 1, _FURTHEST) if allows(rule, n, dims) and n <= most), None)
-    for nearest in (below, above):
-        if nearest is not None and str(nearest) not in numbers:
+    below = subject.spec.counts.below(min(count, most + 1), dims)
+    above = subject.spec.counts.above(count, dims)
+    for nearest, found in zip((below, above), carried, strict=True):
+        if nearest is not None and nearest <= most and not (nearest == found and _names(str(refusal), nearest)):
             raise CheckFailed(
-                f"the error does not name {nearest}, the nearest count that it makes: {message!r}",
+                f"the error does not name {nearest}, the nearest count that it makes: {str(refusal)!r}",
                 CounterExample(subject.text, count, dims),
             )
 
 
-def _refusal(subject: Subject, count: int, dims: int) -> str:
-    """The text of the error that a wrong request gives."""
+def _refusal(subject: Subject, count: int, dims: int) -> UsageError:
+    """Return the error that a wrong request gives."""
     example = CounterExample(subject.text, count, dims)
     try:
         subject.sampler.points(count, dims)
     except UsageError as error:
-        return str(error)
+        return error
     except Exception as error:
         raise CheckFailed(f"raises {type(error).__name__} in place of a UsageError: {error}", example) from None
     raise CheckFailed("makes what it declares that it cannot: expected an error", example)
@@ -106,7 +106,7 @@ def _all_dimensions_differ(subject: Subject) -> None:
     if dims < 2:
         return
     # A grid in so many dimensions has two cells along each.
-    count = subject.counts(1024 if spec.counts != "products" else 2**dims, dims=dims)[-1]
+    count = subject.counts(2**dims if spec.counts.depends_on_dims else 1024, dims=dims)[-1]
     if count < 16:
         return
     values = subject.sets(count, dims, 1)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit._bases.realizations import Realizations
-from samplekit.testing._declared import allows, progressive_counts
+from samplekit.testing._declared import progressive_counts
 from samplekit.testing._result import CheckFailed, check
 
 if TYPE_CHECKING:
@@ -22,14 +22,14 @@ LENGTHS = (1, 3, 16, 100, 1000, *POWERS, *_BASES)
 
 
 def _declared_progressive(spec: SamplerSpec) -> str:
-    return "it is not declared progressive" if spec.progressive == "no" else ""
+    return "it is not declared progressive" if spec.progressive is None else ""
 
 
 def larger_counts(spec: SamplerSpec, length: int, dims: int) -> list[int]:
-    """Some counts above ``length`` that are declared, odd ones among them."""
+    """Return some declared counts above ``length``, odd ones among them."""
     wanted = (length + 1, 2 * length, 2 * length + 1, 1000, 4096)
     most = spec.largest_index + 1
-    return sorted({count for count in wanted if length < count <= most and allows(spec.counts, count, dims)})
+    return sorted({count for count in wanted if length < count <= most and spec.counts.allows(count, dims)})
 
 
 @check("prefix", 5, tolerance="bit for bit", requires=_declared_progressive)

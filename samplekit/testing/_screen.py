@@ -13,11 +13,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit._bases.realizations import Realizations
-from samplekit._specs import GridStrata, LatinStrata, OrthogonalArray
-from samplekit.testing._declared import is_power
+from samplekit._specs import Strata
+from samplekit.testing._judge import judge
 from samplekit.testing._nets import judge_net, promised_nets
 from samplekit.testing._result import CheckFailed, CounterExample
-from samplekit.testing._strata import judge_strata
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -60,7 +59,6 @@ def blocks_of(
 
 def _judge_unions(subject: Subject, side: int) -> None:
     nets = promised_nets(subject.spec)
-    strata = [p for p in subject.spec.promises if isinstance(p, (LatinStrata, GridStrata, OrthogonalArray))]
     dims = subject.dims(max([4, *(max(net.dims) + 1 for net in nets)]))
     for count in subject.counts(*_COUNTS[: 2 if subject.quick else 3], dims=dims):
         together = side * side * count
@@ -71,10 +69,9 @@ def _judge_unions(subject: Subject, side: int) -> None:
             union = np.ascontiguousarray(sets.transpose(0, 2, 1, 3)).reshape(_EXACT_BLOCKS, dims, together)
             try:
                 for net in nets:
-                    if is_power(together, net.base) and together >= net.base**net.t:
-                        judge_net(subject, union, net, together, seed=seed)
-                for promise in strata:
-                    judge_strata(subject, promise, union, together, seed)
+                    judge_net(subject, union, net, together, seed=seed)
+                for promise in subject.spec.promised(Strata):
+                    judge(subject, promise, union, together, seed=seed)
             except CheckFailed as failed:
                 raise _of_a_block(failed, side, count, corners) from None
 

@@ -13,7 +13,7 @@ from samplekit._bases.realizations import Realizations
 from samplekit._configured.sampler import sampler as configured_sampler
 from samplekit._errors import InvalidPointsError, SamplekitError, UsageError
 from samplekit._specs import SamplerSpec
-from samplekit.testing._declared import allows, counts_of, dims_of, most_dims
+from samplekit.testing._declared import counts_of, dims_of, most_dims
 from samplekit.testing._result import CheckFailed, CounterExample
 
 if TYPE_CHECKING:
@@ -79,10 +79,10 @@ class Subject:
 
     def most_dims(self, limit: int) -> int:
         """The largest number of dimensions up to ``limit`` in which it makes some count up to 4096."""
-        rule, high = self.spec.counts, most_dims(self.spec, limit)
-        if rule == "products":
+        high = most_dims(self.spec, limit)
+        if self.spec.counts.depends_on_dims:
             return high
-        counts = [count for count in range(_SMALL, 0, -1) if allows(rule, count, high)]
+        counts = [count for count in range(_SMALL, 0, -1) if self.spec.counts.allows(count, high)]
         low = min(self.dims(1), high)
         while low < high:
             middle = (low + high + 1) // 2

@@ -57,7 +57,7 @@ def cell_counts(points: NDArray[np.float64], axes: tuple[int, ...]) -> NDArray[n
 def check_uniformity(subject: Subject) -> None:
     """Points fill 31 x 31 cells evenly, about 61 a cell."""
     # A grid of many points is coarse in many dimensions: two are what it fills.
-    dims = subject.dims(4 if subject.spec.randomized or subject.spec.counts != "products" else 2)
+    dims = subject.dims(4 if subject.spec.randomized or not subject.spec.counts.depends_on_dims else 2)
     pairs = [(0,)] if dims == 1 else [(axis, axis + 1) for axis in range(0, dims - 1, 2)]
     wanted = PER_CELL * SIDE**2
     if subject.spec.randomized:

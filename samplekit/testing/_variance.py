@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit._specs import GridStrata, LatinStrata, Net, OrthogonalArray
+from samplekit._specs import Strata
 from samplekit.testing._result import CheckFailed, CounterExample, NotApplicable, check
 from samplekit.testing._statistics import normal_threshold
-from samplekit.testing._strata import promised_grids
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -100,12 +99,10 @@ def _mean_squares(
 
 
 def _implied(subject: Subject, name: str, count: int, dims: int) -> list[tuple[float, str]]:
-    """Bounds that the promises imply for one function."""
+    """Return the bounds that the promises imply for one function, and why."""
     bounds: list[tuple[float, str]] = []
-    grids = [
-        grid for promise in subject.spec.promises for ties in promised_grids(promise, count, dims) for grid in ties
-    ]
-    if name == "x0 + x1" and all(any(axes == (d,) and sides == (count,) for axes, sides in grids) for d in (0, 1)):
+    strata = [cells for promise in subject.spec.promised(Strata) for cells in promise.cells(count, dims)]
+    if name == "x0 + x1" and all(((d,), (count,)) in strata for d in (0, 1)):
         # One point in each interval: a coordinate's mean is off by half an interval at most.
         bounds.append((1.0 / count**2, "Latin strata at their worst"))
     if name == "a disk" and _one_a_cell(subject, count, dims):
@@ -114,18 +111,12 @@ def _implied(subject: Subject, name: str, count: int, dims: int) -> list[tuple[f
 
 
 def _one_a_cell(subject: Subject, count: int, dims: int) -> bool:
-    """Whether near-square cells of dimensions 0 and 1 are promised to hold one point each."""
-    for promise in subject.spec.promises:
-        if isinstance(promise, Net) and promise.dims == (0, 1) and promise.t == 0 and promise.base == 2:
-            return count.bit_count() == 1
-        if isinstance(promise, (GridStrata, OrthogonalArray)) and not isinstance(promise, LatinStrata):
-            return any(
-                axes == (0, 1)
-                for ties in promised_grids(promise, count, dims)
-                for axes, sides in ties
-                if len(sides) == 2
-            )
-    return False
+    """Tell whether near-square cells of dimensions 0 and 1 are promised to hold one point each."""
+    return any(
+        cells.axes == (0, 1) and math.prod(cells.sides) == count and max(cells.sides) <= 2 * min(cells.sides)
+        for promise in subject.spec.promises
+        for cells in promise.cells(count, dims)
+    )
 
 
 def _judge_slope(subject: Subject, small: float, large: float, counts: list[int], dims: int) -> None:

@@ -9,7 +9,21 @@ import pytest
 from samplekit._cli import run, words
 from samplekit._cli.sheet import describe, lines
 from samplekit._registry import Plugin, registry
-from samplekit._specs import GridStrata, LatinStrata, MinimumDistance, Net, Option, OrthogonalArray, SamplerSpec
+from samplekit._specs import (
+    AnyCount,
+    Exactly,
+    FibonacciNumbers,
+    GridStrata,
+    LatinStrata,
+    MinimumDistance,
+    Net,
+    Option,
+    OrthogonalArray,
+    PowersOf,
+    PrimePowers,
+    Products,
+    SamplerSpec,
+)
 
 PLUGIN = Plugin("toys", "Toys", "1.0")
 
@@ -93,7 +107,7 @@ def test_wrong_names(capsys, arguments, message):
 
 def test_promises_in_words():
     said = [
-        words.promise(promise)
+        promise.describe()
         for promise in (
             GridStrata(block=3),
             LatinStrata(dims=(1,)),
@@ -123,25 +137,26 @@ def test_every_declaration_has_words():
 @pytest.mark.parametrize(
     ("counts", "said", "short"),
     [
-        ("any", "any number", "any"),
-        ("products", "products of near-equal sides (a grid) in 2D: 1, 2, 4, 6, 8, 9, 12, 15, ...", "a grid"),
-        ("products-in-2", "products of two near-equal sides (a grid): 1, 2, 4, 6, 8, 9, 12, 15, ...", "a grid in 2D"),
-        ("powers-of-4", "powers of 4: 1, 4, 16, 64, 256, 1024, 4096, 16384, ...", "4^m"),
-        ("fibonacci", "Fibonacci numbers: 1, 2, 3, 5, 8, 13, 21, 34, ...", "Fibonacci"),
-        ("prime-cubes", "cubes of primes: 8, 27, 125, 343, 1331, 2197, 4913, 6859, ...", "prime^3"),
-        ("exactly-12", "exactly 12", "only 12"),
+        (AnyCount(), "any number", "any"),
+        (Products(), "products of near-equal sides (a grid) in 2D: 1, 2, 4, 6, 8, 9, 12, 15, ...", "a grid"),
+        (Products(2), "products of two near-equal sides (a grid): 1, 2, 4, 6, 8, 9, 12, 15, ...", "a grid in 2D"),
+        (PowersOf(4), "powers of 4: 1, 4, 16, 64, 256, 1024, 4096, 16384, ...", "4^m"),
+        (FibonacciNumbers(), "Fibonacci numbers: 1, 2, 3, 5, 8, 13, 21, 34, ...", "Fibonacci"),
+        (PrimePowers(3), "cubes of primes: 8, 27, 125, 343, 1331, 2197, 4913, 6859, ...", "prime^3"),
+        (Exactly(12), "exactly 12", "only 12"),
     ],
 )
 def test_counts_in_words(counts, said, short):
     spec = SamplerSpec("x", "a:B", "", counts=counts)
     assert words.counts(spec) == said
-    assert words.short_counts(spec) == short
+    assert counts.short() == short
 
 
 def test_progressivity_in_words():
-    specs = [SamplerSpec("x", "a:B", "", progressive=each) for each in ("no", "every-count", "powers-of-2")]
+    specs = [SamplerSpec("x", "a:B", "", progressive=each) for each in (None, AnyCount(), PowersOf(2))]
     assert [words.short_progressive(spec) for spec in specs] == ["", "always", "at 2^m"]
     assert "the first 2^m are a good set" in words.progressive(specs[2])
+    assert [words.progressive_word(spec) for spec in specs] == ["no", "every-count", "powers-of-2"]
 
 
 def test_a_plain_name_imports_no_implementation():

@@ -13,6 +13,7 @@ import pytest
 from samplekit._errors import SamplekitError, UsageError
 from samplekit._specs import (
     API_VERSION,
+    AnyCount,
     CommandSpec,
     GridStrata,
     LatinStrata,
@@ -20,9 +21,14 @@ from samplekit._specs import (
     Net,
     Option,
     OrthogonalArray,
+    Powers,
+    PowersOf,
+    PrimePowers,
+    Products,
     RandomizerSpec,
     SamplerSpec,
     SceneSpec,
+    Strata,
 )
 
 KINDS = [SamplerSpec, RandomizerSpec, SceneSpec, CommandSpec]
@@ -112,14 +118,14 @@ def test_a_declaration_for_a_newer_interface_is_refused(kind):
         {"dimensions": (1, 2.0)},
         {"dimensions": (None, 2)},
         {"counts": "some"},
-        {"counts": "powers-of-0"},
-        {"counts": "powers-of-"},
-        {"counts": "powers-of-2.5"},
+        {"counts": "any"},
+        {"counts": PowersOf},
         {"counts": None},
         {"counts": 2},
         {"progressive": True},
-        {"progressive": "yes"},
-        {"progressive": "powers-of-0"},
+        {"progressive": "no"},
+        {"progressive": "every-count"},
+        {"progressive": PowersOf},
         {"period": 0},
         {"period": -1},
         {"largest_index": -1},
@@ -178,6 +184,7 @@ def test_a_summary_is_text_of_one_line(summary):
         lambda: Net(dims=(0, 0)),
         lambda: Net(base=1),
         lambda: Net(t=-1),
+        lambda: Net(sequence="yes"),
         lambda: LatinStrata(dims=(-1,)),
         lambda: GridStrata(block=0),
         lambda: OrthogonalArray(strength=2.0),
@@ -205,13 +212,15 @@ def test_mappings_are_taken_as_plain_copies():
 
 
 def test_what_a_sampler_may_declare_is_taken():
-    for counts in ("any", "products", "products-in-2", "squares", "prime-squares", "prime-cubes", "powers-of-2"):
+    for counts in (AnyCount(), Products(), Products(2), Powers(2), PrimePowers(2), PrimePowers(3), PowersOf(2)):
         assert sampler(counts=counts).counts == counts
-    for progressive in ("no", "every-count", "powers-of-3"):
+    for progressive in (None, AnyCount(), PowersOf(3)):
         assert sampler(progressive=progressive).progressive == progressive
     promises = (Net(), LatinStrata(), GridStrata(), OrthogonalArray(), MinimumDistance(0.7))
     spec = sampler(dimensions=(2, 2), period=128, largest_index=2**64 - 1, promises=promises)
     assert spec.promises == promises
+    assert spec.promised(Net) == [Net()]
+    assert spec.promised(Strata) == [LatinStrata(), GridStrata(), OrthogonalArray()]
     assert {promise.keyword for promise in promises} == {"net", "latin", "grid", "orthogonal-array", "distance"}
 
 

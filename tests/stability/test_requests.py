@@ -6,7 +6,6 @@ import pytest
 import samplekit
 from samplekit import Realizations, UsageError
 from samplekit._registry import BUILTIN, registry
-from samplekit._specs.counts import nearest_above
 
 SEEDS = (0, 1, 2**63, 2**64 - 1)
 INDICES = (0, 2**24, 2**31, 2**32, 2**40, 2**53)
@@ -30,7 +29,7 @@ def counts_around(sampler, dims, index):
     """Counts of sets that have a point of this index, the least first; none if there is no such set."""
     if index > sampler.spec.largest_index:
         return
-    nearest = nearest_above(sampler.spec.counts, index + 1, dims)
+    nearest = sampler.spec.counts.above(index + 1, dims)
     for count in dict.fromkeys((index + _PART, nearest, 2 * index, 1 << max(index, 1).bit_length())):
         if count and count > index and possible(sampler, count, dims):
             yield count

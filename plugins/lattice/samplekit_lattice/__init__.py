@@ -1,6 +1,16 @@
 """Lattices: the declarations. Nothing here imports NumPy; the samplers are imported when they are used."""
 
-from samplekit import LatinStrata, MinimumDistance, Net, Option, SamplerSpec, hookimpl
+from samplekit import (
+    AnyCount,
+    FibonacciNumbers,
+    LatinStrata,
+    MinimumDistance,
+    Net,
+    Option,
+    PowersOf,
+    SamplerSpec,
+    hookimpl,
+)
 
 
 @hookimpl
@@ -12,7 +22,7 @@ def samplekit_samplers() -> list[SamplerSpec]:
             "samplekit_lattice.r2:R2",
             "golden-ratio sequence, randomly shifted",
             reference="Roberts 2018, after Kronecker and Weyl",
-            progressive="every-count",
+            progressive=AnyCount(),
             largest_index=2**32 - 1,
         ),
         SamplerSpec(
@@ -30,7 +40,7 @@ def samplekit_samplers() -> list[SamplerSpec]:
                 ),
             ),
             dimensions=(1, 250),
-            progressive="powers-of-2",
+            progressive=PowersOf(2),
             largest_index=2**20 - 1,
             # All components are odd, so that 2^m points are one in each interval of 2^-m, in any one dimension.
             promises=(Net(dims=(0,)), Net(dims=(1,))),
@@ -41,7 +51,7 @@ def samplekit_samplers() -> list[SamplerSpec]:
             "Fibonacci's lattice, randomly shifted",
             reference="Zaremba 1966",
             dimensions=(2, 2),
-            counts="fibonacci",
+            counts=FibonacciNumbers(),
             # Three points are 0.76 apart, two or more than three at least 0.86.
             promises=(LatinStrata(), MinimumDistance(0.75)),
         ),

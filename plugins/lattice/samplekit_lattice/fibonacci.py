@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit import Sampler, UsageError, fibonacci_numbers
+from samplekit import FibonacciNumbers, Sampler, UsageError
 from samplekit.kernels import below, dimension_key, kernel, offset_bits, place_in_cell, second_key
 
 if TYPE_CHECKING:
@@ -58,9 +58,9 @@ class Fibonacci(Sampler):
 
     def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`samplekit.Sampler.fill`."""
-        numbers = fibonacci_numbers(count)
-        if count not in numbers:
+        if not FibonacciNumbers().allows(count, 2):
             raise UsageError(f"there is no Fibonacci lattice of {count} points")
+        before = FibonacciNumbers().below(count, 2)
         # One point needs no generator, and 1 would not be below the count.
-        generators = (1, numbers[-3]) if count > 1 else (0, 0)
+        generators = (0, 0) if before is None else (1, before)
         _fill(out, realizations.keys, np.array(generators, np.uint64), count, _U64(start))

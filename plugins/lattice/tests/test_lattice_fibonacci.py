@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import samplekit
-from samplekit._specs.counts import fibonacci_numbers
+from samplekit import FibonacciNumbers
 
 REALIZATIONS = 100
 
@@ -17,7 +17,7 @@ def numerators(points, count):
 @pytest.mark.parametrize("count", [1, 2, 3, 5, 8, 21, 89, 144])
 def test_points_are_the_lattice_shifted_by_whole_steps_and_one_place_within(count):
     points = samplekit.points("fibonacci", count=count, realizations=REALIZATIONS)
-    generator = fibonacci_numbers(count)[-3] if count > 1 else 0
+    generator = FibonacciNumbers().below(count, 2) or 0
     index = np.arange(count)
     for set_ in points:
         m = numerators(set_, count).reshape(count, 2)
@@ -36,7 +36,7 @@ def test_the_shift_is_uniform():
 
 def test_points_are_as_far_apart_as_declared():
     smallest = []
-    for before, count in pairwise(fibonacci_numbers(5000)[1:]):
+    for before, count in pairwise(FibonacciNumbers().rising(0, 2)):
         if count > 5000:
             break
         index = np.arange(1, count)
@@ -60,7 +60,7 @@ def test_the_largest_lattice_is_exact():
     count = 2971215073
     points = samplekit.sampler("fibonacci").points(count, start=count - 100, stop=count)[0]
     m = numerators(points, count).reshape(-1, 2).astype(object)
-    generator = fibonacci_numbers(count)[-3]
+    generator = FibonacciNumbers().below(count, 2)
     assert all((m[i, 1] - m[0, 1] - i * generator) % count == 0 for i in range(100))
     assert all((m[i, 0] - m[0, 0] - i) % count == 0 for i in range(100))
 

@@ -2,7 +2,18 @@
 
 from __future__ import annotations
 
-from samplekit import GridStrata, LatinStrata, Net, Option, OrthogonalArray, SamplerSpec
+from samplekit import (
+    AnyCount,
+    GridStrata,
+    LatinStrata,
+    Net,
+    Option,
+    OrthogonalArray,
+    PowersOf,
+    PrimePowers,
+    Products,
+    SamplerSpec,
+)
 
 _SAMPLERS = "samplekit._builtin.samplers."
 
@@ -23,14 +34,14 @@ SAMPLERS = (
         _SAMPLERS + "random:Random",
         "independent uniform points: white noise",
         reference="Steele, Lea, Flood 2014 (the hash)",
-        progressive="every-count",
+        progressive=AnyCount(),
         largest_index=2**63 - 1,
     ),
     SamplerSpec(
         "regular",
         _SAMPLERS + "grid:Regular",
         "the centres of a grid",
-        counts="products",
+        counts=Products(),
         randomized=False,
         unbiased=False,
         promises=(GridStrata(),),
@@ -40,7 +51,7 @@ SAMPLERS = (
         _SAMPLERS + "grid:Jittered",
         "a random place in each cell of a grid",
         reference="Cook, Porter, Carpenter 1984",
-        counts="products",
+        counts=Products(),
         promises=(GridStrata(),),
     ),
     SamplerSpec(
@@ -48,7 +59,7 @@ SAMPLERS = (
         _SAMPLERS + "uncorrelated_jitter:UncorrelatedJitter",
         "jittered pairs of dimensions (pixel, lens, ...) in random order",
         reference="Cook, Porter, Carpenter 1984",
-        counts="products-in-2",
+        counts=Products(2),
         promises=(GridStrata(block=2),),
     ),
     SamplerSpec(
@@ -72,7 +83,7 @@ SAMPLERS = (
         "jittered and Latin at once",
         reference="Chiu, Shirley, Wang 1994",
         dimensions=(2, None),
-        counts="products-in-2",
+        counts=Products(2),
         promises=(LatinStrata(), GridStrata(block=2)),
     ),
     SamplerSpec(
@@ -81,7 +92,7 @@ SAMPLERS = (
         "multi-jittered with the same shuffle in all columns and rows",
         reference="Kensler 2013, Pixar 13-01",
         dimensions=(2, None),
-        counts="products-in-2",
+        counts=Products(2),
         promises=(LatinStrata(), GridStrata(block=2)),
     ),
     SamplerSpec(
@@ -99,7 +110,7 @@ SAMPLERS = (
             ),
         ),
         dimensions=(2, None),
-        counts="prime-squares",
+        counts=PrimePowers(2),
         promises=(OrthogonalArray(2), LatinStrata()),
     ),
     SamplerSpec(
@@ -109,7 +120,7 @@ SAMPLERS = (
         reference="van der Corput 1935",
         options=(Option("base", 2, "base of the digits", 2, 1000),),
         dimensions=(1, 1),
-        progressive="every-count",
+        progressive=AnyCount(),
         randomized=False,
         unbiased=False,
         largest_index=2**40 - 1,
@@ -129,7 +140,7 @@ SAMPLERS = (
             ),
         ),
         dimensions=(1, 1024),
-        progressive="every-count",
+        progressive=AnyCount(),
         randomized=False,
         unbiased=False,
         largest_index=2**40 - 1,
@@ -153,7 +164,7 @@ SAMPLERS = (
         reference="Faure 1982",
         options=(Option("base", 5, "a prime: as many dimensions at most, and good sets at its powers", 2, 1021),),
         dimensions=(1, 5),
-        progressive="powers-of-5",
+        progressive=PowersOf(5),
         randomized=False,
         unbiased=False,
         largest_index=2**40 - 1,
@@ -165,7 +176,7 @@ SAMPLERS = (
         "digital sequence in base 2 with good 2D projections",
         reference="Sobol' 1967; Joe and Kuo 2008",
         dimensions=(1, 4096),
-        progressive="powers-of-2",
+        progressive=PowersOf(2),
         randomized=False,
         unbiased=False,
         largest_index=2**32 - 1,
@@ -178,7 +189,7 @@ SAMPLERS = (
         "digital sequence in base 2 from irreducible polynomials",
         reference="Niederreiter 1988; Bratley, Fox, Niederreiter 1992",
         dimensions=(1, 412),
-        progressive="powers-of-2",
+        progressive=PowersOf(2),
         randomized=False,
         unbiased=False,
         largest_index=2**32 - 1,
@@ -189,7 +200,7 @@ SAMPLERS = (
         _SAMPLERS + "owen_sobol:OwenSobol",
         "Sobol points in blocks of four dimensions, each Owen-scrambled and shuffled",
         reference="Burley 2020; Laine, Karras 2011; Joe, Kuo 2008",
-        progressive="powers-of-2",
+        progressive=PowersOf(2),
         promises=(*_sobol_nets(0), *_sobol_nets(4)),
     ),
     SamplerSpec(
@@ -197,7 +208,7 @@ SAMPLERS = (
         _SAMPLERS + "pmj02:Pmj02",
         "progressive multi-jittered (0, 2)-sequence, in pairs of dimensions",
         reference="Christensen, Kensler, Kilpatrick 2018; Helmer, Christensen, Kensler 2021",
-        progressive="powers-of-2",
+        progressive=PowersOf(2),
         promises=tuple(Net(dims=(first, first + 1)) for first in (0, 2, 4, 6)),
     ),
     SamplerSpec(
@@ -213,7 +224,7 @@ SAMPLERS = (
                 choices=("matched", "random"),
             ),
         ),
-        counts="powers-of-2",
+        counts=PowersOf(2),
         promises=(
             LatinStrata(),
             GridStrata(block=2),

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit import Net, Sampler, UsageError
+from samplekit import Net, PowersOf, Sampler, UsageError
 from samplekit.kernels import kernel, largest_power, table_size
 
 if TYPE_CHECKING:
@@ -134,7 +134,7 @@ class Faure(Sampler):
         return replace(
             spec,
             dimensions=(1, self.base),
-            progressive=f"powers-of-{self.base}",
+            progressive=PowersOf(self.base),
             promises=tuple(Net(dims=tuple(range(dims)), base=self.base) for dims in sorted(nets)),
         )
 

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit import LatinStrata, OrthogonalArray, Sampler, UsageError, allows
+from samplekit import LatinStrata, OrthogonalArray, PrimePowers, Sampler, UsageError
 from samplekit.kernels import (
     SHUFFLED,
     dimension_key,
@@ -54,7 +54,6 @@ _BLOCK = 1024
 """Points that are made at a time, so that what is known of them stays in the cache."""
 _TABULATED = 1 << 16
 """Largest number of places within strata that are a table: of one stratum, where all share it, or of all together."""
-_COUNTS = {2: "prime-squares", 3: "prime-cubes"}
 
 
 @helper
@@ -178,12 +177,13 @@ class OrthogonalArraySampler(Sampler):
 
     def __init__(self, strength: int = 2, offset: str = "correlated") -> None:
         self.strength = strength
+        self.counts = PrimePowers(strength)
         self.style = STYLES.index(offset)
 
     def refine(self, spec: SamplerSpec) -> SamplerSpec:
         """The counts and the promises of this strength and offset."""
         promises = (OrthogonalArray(self.strength), *(() if self.style == JITTERED else (LatinStrata(),)))
-        return replace(spec, counts=_COUNTS[self.strength], promises=promises)
+        return replace(spec, counts=self.counts, promises=promises)
 
     def check(self, count: int, dims: int, blocks: tuple[int, ...]) -> None:
         """Raise unless the array has as many columns.
@@ -195,18 +195,15 @@ class OrthogonalArraySampler(Sampler):
         """
         s = _prime_root(count, self.strength)
         if dims > s + 1:
-            enough = next(n**self.strength for n in count_from(dims - 1) if self._makes(n**self.strength))
+            enough = next(n**self.strength for n in count_from(dims - 1) if self.counts.allows(n**self.strength, dims))
             raise UsageError(
                 f"orthogonal-array of {count} = {s}^{self.strength} points has at most {s + 1} dimensions, not {dims}:"
                 f" for {dims} dimensions it takes at least {enough} points"
             )
 
-    def _makes(self, count: int) -> bool:
-        return allows(_COUNTS[self.strength], count, 1)
-
     def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`Sampler.fill`."""
         s = _prime_root(count, self.strength)
-        if not self._makes(count) or out.shape[1] > s + 1:
+        if not self.counts.allows(count, out.shape[1]) or out.shape[1] > s + 1:
             raise UsageError(f"there is no orthogonal array of {count} points in {out.shape[1]} dimensions")
         _fill(out, realizations.keys, s, self.strength, self.style, count, start)

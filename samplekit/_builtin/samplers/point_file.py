@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit import Sampler, UsageError, parse_choice
+from samplekit import Exactly, Sampler, UsageError, parse_choice
 from samplekit.files import read_points
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ class PointFile(Sampler):
         return replace(
             spec,
             dimensions=(self.dims, self.dims),
-            counts=f"exactly-{self.count}",
+            counts=Exactly(self.count),
             randomized=several,
             period=self.sets if several else None,
         )

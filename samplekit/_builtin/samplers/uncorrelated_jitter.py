@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit import Sampler, UsageError, allows, describe, grid_sides
+from samplekit import Products, Sampler, UsageError, grid_sides
 from samplekit._builtin.samplers.jittered_blocks import fill_jittered_blocks
 
 if TYPE_CHECKING:
@@ -57,12 +57,12 @@ class UncorrelatedJitter(Sampler):
         sizes = set(block_sizes(dims, blocks)) | {2}
         if _fits(count, sizes):
             return
-        size = max(size for size in sizes if not allows(f"products-in-{size}", count, dims))
+        size = max(size for size in sizes if not Products(size).allows(count, dims))
         below = next((n for n in range(count - 1, max(count - _FARTHEST, 0), -1) if _fits(n, sizes)), None)
         above = next((n for n in range(count + 1, count + _FARTHEST) if _fits(n, sizes)), None)
         nearest = " and ".join(str(n) for n in (below, above) if n is not None) or "far away"
         raise UsageError(
-            f"uncorrelated-jitter makes {describe(f'products-in-{size}')} for a block of {size} dimensions,"
+            f"uncorrelated-jitter makes {Products(size).describe()} for a block of {size} dimensions,"
             f" not {count}: the nearest for blocks of {', '.join(map(str, sorted(sizes)))} are {nearest}"
         )
 

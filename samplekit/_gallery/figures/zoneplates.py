@@ -10,7 +10,6 @@ import numpy as np
 import samplekit
 from samplekit._gallery.figure import Figure
 from samplekit._gallery.sheet import Tile, image_tile, rendering_tiles, sheet
-from samplekit._specs.counts import allows, nearest_below
 
 if TYPE_CHECKING:
     from samplekit._drawing.drawing import Drawing
@@ -62,7 +61,7 @@ def _every_sampler(spp: int) -> Drawing:
     for name in SAMPLERS:
         sampler = samplekit.sampler(name)
         rule = sampler.spec.counts
-        count = spp if allows(rule, spp, 2) else nearest_below(rule, spp, 2)
+        count = spp if rule.allows(spp, 2) else rule.below(spp, 2)
         if count is None:
             blank = np.full((144, 144, 3), 236, np.uint8)
             tiles.append(Tile(blank, name, (f"no set of {spp} or fewer",)))

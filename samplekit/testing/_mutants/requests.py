@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, ClassVar
 import numpy as np
 
 from samplekit._bases.realizations import Realizations
-from samplekit.testing._declared import allows
+from samplekit._specs import AnyCount, PowersOf, Products
 from samplekit.testing._mutants.mutant import ALMOST_ONE, Mutant, indices
 
 if TYPE_CHECKING:
@@ -86,7 +86,7 @@ class ProgressiveHammersley(Mutant):
     """Is declared progressive, though index / count moves all points when the count does."""
 
     base, caught_by = "hammersley", "prefix"
-    declares: ClassVar = {"progressive": "powers-of-2"}
+    declares: ClassVar = {"progressive": PowersOf(2)}
 
 
 class SlicesOffByOne(Mutant):
@@ -111,10 +111,10 @@ class RoundsTheCount(Mutant):
     """Makes a grid of the largest product below the count, and the rest of its points again, in silence."""
 
     base, caught_by = "jittered", "limits"
-    declares: ClassVar = {"counts": "any", "promises": ()}
+    declares: ClassVar = {"counts": AnyCount(), "promises": ()}
 
     def fill(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
-        made = next(n for n in range(count, 0, -1) if allows("products", n, out.shape[1]))
+        made = Products().nearest(count, out.shape[1])[0]
         whole = np.empty((*out.shape[:2], made))
         self.inner.fill(whole, realizations, made, 0)
         out[:] = whole[:, :, indices(out, start) % made]

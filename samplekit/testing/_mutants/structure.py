@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from samplekit._configured.sampler import sampler as configured_sampler
-from samplekit._specs import LatinStrata, MinimumDistance, Net
+from samplekit import sampler as configured_sampler
+from samplekit._specs import LatinStrata, MinimumDistance, Net, PowersOf
 from samplekit.testing._mutants.mutant import ALMOST_ONE, Mutant, indices
 
 if TYPE_CHECKING:
@@ -73,7 +73,7 @@ class LaterBlocksBroken(Mutant):
     """Is a net in the first block of every length alone, though it is declared a sequence."""
 
     base, caught_by = "sobol", "elementary-intervals"
-    declares: ClassVar = {"counts": "powers-of-2", "progressive": "no"}
+    declares: ClassVar = {"counts": PowersOf(2), "progressive": None}
 
     def spoil(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
         # Later points of a set in another order: the set is the same.

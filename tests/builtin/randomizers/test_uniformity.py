@@ -25,7 +25,7 @@ REALIZATIONS = 61 * 961
 @pytest.mark.parametrize("text", CHOICES)
 def test_points_are_uniform(text):
     sampler = samplekit.sampler(text)
-    count = 25 if sampler.spec.counts == "prime-squares" else 4
+    count = 25 if sampler.spec.counts == samplekit.PrimePowers(2) else 4
     dims = min(2, sampler.spec.dimensions[1] or 2)
     realizations = REALIZATIONS if dims == 2 else REALIZATIONS // 31
     points = np.empty((realizations, dims))
@@ -45,7 +45,7 @@ def test_points_are_uniform(text):
 def test_estimates_are_unbiased(text):
     """x + y, x y and a corner's triangle over 4000 sets: within 4.5 standard errors, false alarms 1e-3 for all."""
     sampler = samplekit.sampler(text)
-    count = 25 if sampler.spec.counts == "prime-squares" else 8
+    count = 25 if sampler.spec.counts == samplekit.PrimePowers(2) else 8
     dims = min(2, sampler.spec.dimensions[1] or 2)
     points = sampler.points(count, dims, realizations=4000, seed=77)
     x, y = points[:, :, 0], points[:, :, -1] if dims == 2 else 0.5

@@ -16,7 +16,7 @@ CHOICES = OPTIONS + [
     if not any(option.required for option in spec.options)
     for suffix in ("", *(f"+{randomizer.name}" for randomizer in samplekit_randomizers()))
 ]
-PROGRESSIVE = [text for text in CHOICES if samplekit.sampler(text).spec.progressive != "no"]
+PROGRESSIVE = [text for text in CHOICES if samplekit.sampler(text).spec.progressive is not None]
 COUNTS = (1, 2, 7, 16, 25, 96, 1000, 1024, 1026, 1369, 1560, 3000)
 
 

@@ -5,7 +5,7 @@ import pytest
 
 import samplekit
 from samplekit._bases.realizations import Realizations
-from samplekit._specs import LatinStrata, OrthogonalArray
+from samplekit._specs import LatinStrata, OrthogonalArray, PrimePowers
 
 REALIZATIONS = 100
 STYLES = ("jittered", "multi-jittered", "correlated")
@@ -117,7 +117,7 @@ def test_declarations_follow_the_options():
     assert samplekit.sampler("orthogonal-array").spec.promises == (OrthogonalArray(2), LatinStrata())
     three = samplekit.sampler("orthogonal-array:strength=3,offset=jittered").spec
     assert three.promises == (OrthogonalArray(3),)
-    assert three.counts == "prime-cubes"
+    assert three.counts == PrimePowers(3)
 
 
 @pytest.mark.parametrize(

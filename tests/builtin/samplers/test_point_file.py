@@ -9,7 +9,7 @@ import samplekit
 from samplekit._bases.realizations import Realizations
 from samplekit._builtin.samplers.point_file import row_step
 from samplekit._errors import SamplekitError, UsageError
-from samplekit._specs import SamplerSpec
+from samplekit._specs import Exactly, SamplerSpec
 from samplekit.files._pointsets.write import write_points
 
 SETS = np.random.default_rng(8).random((5, 12, 3))
@@ -66,9 +66,9 @@ def test_pixels_take_sets_by_their_place_wherever_they_are(chosen):
 
 def test_the_declaration_says_what_is_in_the_file(chosen):
     several = chosen().spec
-    assert (several.dimensions, several.counts, several.randomized, several.period) == ((3, 3), "exactly-12", True, 5)
+    assert (several.dimensions, several.counts, several.randomized, several.period) == ((3, 3), Exactly(12), True, 5)
     one = chosen(SETS[:1]).spec
-    assert (one.dimensions, one.counts, one.randomized, one.period) == ((3, 3), "exactly-12", False, None)
+    assert (one.dimensions, one.counts, one.randomized, one.period) == ((3, 3), Exactly(12), False, None)
     assert not several.unbiased
     shifted = chosen(suffix="+shift").spec
     assert shifted.randomized

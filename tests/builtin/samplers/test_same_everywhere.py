@@ -16,7 +16,7 @@ from samplekit._builtin import samplekit_randomizers, samplekit_samplers
 
 REQUESTS = [
     *(
-        (spec.name + suffix, 25 if spec.counts == "prime-squares" else 16)
+        (spec.name + suffix, 25 if spec.counts == samplekit.PrimePowers(2) else 16)
         for spec in samplekit_samplers()
         if not any(option.required for option in spec.options)
         for suffix in ("", *(f"+{randomizer.name}" for randomizer in samplekit_randomizers()))

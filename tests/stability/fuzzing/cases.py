@@ -43,10 +43,10 @@ def command(doors: Doors, seed: str) -> Case:
 
 def string(doors: Doors, seed: str) -> Case:
     """A sampler, scene or list as text, read alone, and completed."""
-    from samplekit import _parsing as parsing
     from samplekit import sampler as configured_sampler
     from samplekit import scene as configured_scene
     from samplekit._errors import UsageError
+    from samplekit.commands import parse_counts, parse_size
     from samplekit.commands._completion import complete_sampler, complete_scene
 
     random = Random(seed)
@@ -55,9 +55,9 @@ def string(doors: Doors, seed: str) -> Case:
         "scene": (grammar.scene, [configured_scene, complete_scene]),
         "list": (
             lambda random: random.choice(["1,4,16", "2^0..2^4", "16"]),
-            [lambda text: parsing.parse_counts(text, "n")],
+            [lambda text: parse_counts(text, "n")],
         ),
-        "size": (lambda random: random.choice(["8", "8x3"]), [parsing.parse_size]),
+        "size": (lambda random: random.choice(["8", "8x3"]), [parse_size]),
     }
     kind = random.choice(list(kinds))
     make, doors_of_it = kinds[kind]

@@ -2,7 +2,7 @@
 
 import qmcpy
 
-from samplekit import Net, Sampler, SamplerSpec
+from samplekit import Net, PowersOf, Sampler, SamplerSpec
 
 
 class Lattice(Sampler):
@@ -21,8 +21,8 @@ def spec(name, target, **declared):
         f"qmcpy_samplers:{target}",
         f"qmcpy.{target}",
         dimensions=(1, 100),
-        counts="powers-of-2",
-        progressive="powers-of-2",
+        counts=PowersOf(2),
+        progressive=PowersOf(2),
         largest_index=2**20 - 1,
         **declared,
     )

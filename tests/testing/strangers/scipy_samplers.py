@@ -5,7 +5,7 @@ import math
 import numpy as np
 from scipy.stats import qmc
 
-from samplekit import LatinStrata, MinimumDistance, Net, Sampler, SamplerSpec
+from samplekit import AnyCount, LatinStrata, MinimumDistance, Net, PowersOf, Sampler, SamplerSpec
 
 FRACTION = 0.5
 
@@ -46,16 +46,16 @@ SPECS = [
         "scipy-sobol",
         "Sobol",
         dimensions=(1, 21201),
-        counts="powers-of-2",
-        progressive="powers-of-2",
+        counts=PowersOf(2),
+        progressive=PowersOf(2),
         largest_index=2**30 - 1,
         promises=(Net(),),
     ),
-    spec("scipy-halton", "Halton", progressive="every-count", promises=NETS_1D),
+    spec("scipy-halton", "Halton", progressive=AnyCount(), promises=NETS_1D),
     spec(
         "scipy-halton-plain",
         "PlainHalton",
-        progressive="every-count",
+        progressive=AnyCount(),
         randomized=False,
         unbiased=False,
         promises=NETS_1D,

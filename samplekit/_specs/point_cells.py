@@ -1,0 +1,117 @@
+"""Which cells points lie in, exactly, and how far apart points are: what promises are checked with.
+
+A boundary c/n is rarely a float64, and a sampler's exact value k/b^j is not either: what it can give is the float64
+nearest to k/b^j. So the boundary here is the float64 nearest to c/n, which is what dividing two integers below 2^53
+gives. Rounding is monotone: an exact value at or above c/n never rounds to less than the rounded boundary, so a sampler
+that computes its digits in integers and divides once is always judged right, and one that adds up digits in floating
+point and ends below the boundary is not.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from numpy.typing import NDArray
+
+    from samplekit._specs.promise import Cells
+
+
+def cell_of(x: NDArray[np.float64], cells: int) -> NDArray[np.int64]:
+    """Return the cell, from 0 to cells - 1, of each coordinate; coordinates outside [0, 1) get the nearest cell.
+
+    Exact for ``cells`` below 2^31: the product is within one of the cell, and comparing with both boundaries mends it.
+    """
+    cell = np.clip(x * cells, 0, cells - 1).astype(np.int64)
+    cell -= x < cell / cells
+    cell += x >= (cell + 1) / cells
+    return np.clip(cell, 0, cells - 1)
+
+
+class UnevenCell(NamedTuple):
+    """A cell that holds more or fewer points than it should.
+
+    Attributes
+    ----------
+    cells
+        The cells of which it is one.
+    realization
+        Index of the set.
+    place
+        Which of the cells it is along each axis.
+    inside
+        bool[N]: which points of the set are in it.
+    empty
+        How many of the cells are empty in this set.
+    """
+
+    cells: Cells
+    realization: int
+    place: tuple[int, ...]
+    inside: NDArray[np.bool_]
+    empty: int
+
+
+def find_uneven_cell(points: NDArray[np.float64], grids: Iterable[Cells]) -> UnevenCell | None:
+    """Find the first set in which the cells of a grid do not all hold equally many points.
+
+    Parameters
+    ----------
+    points
+        float64[R, N, D]: R sets, each judged alone.
+    grids
+        Cells whose number divides N.
+
+    Returns
+    -------
+    The fullest cell of the set, so that there are points to show; None if all is even.
+    """
+    grids = list(grids)
+    sets, count, _ = points.shape
+    finest: dict[int, int] = {}
+    for cells in grids:
+        for axis, side in zip(cells.axes, cells.sides, strict=True):
+            finest[axis] = max(side, finest.get(axis, 1))
+
+    @cache
+    def along(axis: int, side: int) -> NDArray[np.int64]:
+        finer = finest[axis]
+        if side < finer and finer % side == 0:
+            # The same cells, for a fraction in lowest terms has one float64; and faster.
+            return along(axis, finer) // (finer // side)
+        return cell_of(points[:, :, axis], side)
+
+    for cells in grids:
+        total = math.prod(cells.sides)
+        boxes = np.repeat(np.arange(sets)[:, None], count, axis=1)
+        for axis, side in zip(cells.axes, cells.sides, strict=True):
+            if side > 1:
+                boxes *= side
+                boxes += along(axis, side)
+        held = np.bincount(boxes.ravel(), minlength=sets * total).reshape(sets, total)
+        if not (held == count // total).all():
+            row = int((held != count // total).any(axis=1).argmax())
+            box = int(held[row].argmax())
+            place = tuple(int(c) for c in np.unravel_index(box, cells.sides))
+            return UnevenCell(cells, row, place, boxes[row] == row * total + box, int((held[row] == 0).sum()))
+    return None
+
+
+def closest_pair(points: NDArray[np.float64]) -> tuple[float, int, int]:
+    """Return the least toroidal distance of ``points`` float64[N, D], N >= 2, and the indices of the closest pair."""
+    coordinates = np.ascontiguousarray(points.T)
+    least, pair = math.inf, (0, 1)
+    for i in range(len(points) - 1):
+        apart = np.abs(coordinates[:, i + 1 :] - coordinates[:, i : i + 1])
+        apart = np.minimum(apart, 1.0 - apart)
+        squared = (apart * apart).sum(axis=0)
+        j = int(squared.argmin())
+        if squared[j] < least:
+            least, pair = float(squared[j]), (i, i + 1 + j)
+    return math.sqrt(least), *pair
