@@ -7,25 +7,37 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 import samplekit
+from samplekit import Net, Sampler, SamplerSpec
 from samplekit._drawing.drawing import GRID, Bitmap, Disks, Drawing, Text
 from samplekit._gallery.figure import Figure
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from samplekit import Realizations
+
 _SIDE, _TOP, _LEFT, _GAP = 288, 78, 20, 40
 _CROWDED, _EMPTY = (250, 205, 198), (207, 221, 243)
 
 
+class WrongBit(Sampler):
+    """Sobol points; one constant of the generator matrices has a wrong bit."""
+
+    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+        """Write the points, with the bit changed in the second dimension."""
+        samplekit.sampler("sobol").fill(out, realizations, count, start)
+        if out.shape[1] > 1:
+            index = np.arange(start, start + out.shape[2])
+            wrong = (index >> 3 & 1).astype(np.uint64) << np.uint64(29)
+            out[:, 1] = ((out[:, 1] * 2.0**32).astype(np.uint64) ^ wrong).astype(float) * 2.0**-32
+
+
 def broken_net() -> Drawing:
     """Sobol points, and those of a matrix with one wrong bit, in the elementary intervals that tell them apart."""
-    from samplekit.testing._mutation import run_mutant
+    from samplekit.testing import check_sampler
 
-    (outcome,) = (
-        found
-        for found in run_mutant("WrongXorConstant", quick=True, only=["elementary-intervals"])
-        if found.check == "elementary-intervals"
-    )
+    spec = SamplerSpec("wrong-bit", f"{__name__}:WrongBit", "Sobol points with one wrong bit", promises=(Net(),))
+    (outcome,) = check_sampler(spec, quick=True, only=["elementary-intervals"])
     assert outcome.example is not None
     assert outcome.example.points is not None
     drawing = Drawing(2 * _LEFT + 2 * _SIDE + _GAP, _TOP + _SIDE + 62, "A net, and one with a wrong bit")

@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from samplekit._chosen.sampler import configured_sampler
-from samplekit._specs import LatinStrata, MinimumDistance, Net
-from samplekit.testing._mutants.mutant import ALMOST_ONE, Mutant, indices
+import samplekit
+from mutants.mutant import ALMOST_ONE, Mutant, indices
+from samplekit import LatinStrata, MinimumDistance, Net
 
 if TYPE_CHECKING:
-    from samplekit._bases.realizations import Realizations
-    from samplekit.testing._mutants.mutant import Array
+    from mutants.mutant import Array
+    from samplekit import Realizations
 
 
 class WrongXorConstant(Mutant):
@@ -112,7 +112,7 @@ class RowsShuffled(Mutant):
 
     def spoil(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
         other = np.empty((len(realizations), 2, out.shape[2]))
-        configured_sampler("latin-hypercube").fill(other, realizations, count, start)
+        samplekit.sampler("latin-hypercube").fill(other, realizations, count, start)
         out[:, 1] = other[:, 1]
 
 

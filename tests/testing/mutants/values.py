@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit._bases.sampler import Sampler
-from samplekit.testing._mutants.mutant import Mutant, per_key
+from mutants.mutant import Mutant, per_key
+from samplekit import Sampler
 
 if TYPE_CHECKING:
-    from samplekit._bases.realizations import Realizations
-    from samplekit.testing._mutants.mutant import Array
+    from mutants.mutant import Array
+    from samplekit import Realizations
 
 
 class RareOnes(Mutant):

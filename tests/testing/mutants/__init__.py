@@ -1,10 +1,10 @@
 """Deliberately broken samplers, each with the check that must catch it: the suite is tested with these.
 
 A mutant wraps one of our own samplers and breaks one thing. Many are faults that real renderers and libraries have had.
-``python -m samplekit.testing._mutation`` prints which check catches which.
+``python tests/testing/mutation.py`` prints which check catches which.
 """
 
-from samplekit.testing._mutants import distribution, effects, requests, structure, values
-from samplekit.testing._mutants.mutant import MUTANTS, Mutant
+from mutants import distribution, effects, requests, structure, values
+from mutants.mutant import MUTANTS, Mutant
 
 __all__ = ["MUTANTS", "Mutant", "distribution", "effects", "requests", "structure", "values"]

@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from samplekit._bases.realizations import Realizations
+from mutants.mutant import ALMOST_ONE, Mutant, indices
+from samplekit import Realizations
 from samplekit.testing._declared import allows
-from samplekit.testing._mutants.mutant import ALMOST_ONE, Mutant, indices
 
 if TYPE_CHECKING:
-    from samplekit.testing._mutants.mutant import Array
+    from mutants.mutant import Array
 
 
 class HiddenState(Mutant):

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.testing._mutants.mutant import Mutant
+from mutants.mutant import Mutant
 
 if TYPE_CHECKING:
-    from samplekit._bases.realizations import Realizations
-    from samplekit.testing._mutants.mutant import Array
+    from mutants.mutant import Array
+    from samplekit import Realizations
 
 
 class TouchesTheGlobalGenerator(Mutant):

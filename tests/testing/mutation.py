@@ -1,4 +1,4 @@
-"""The table mutant x check: ``python -m samplekit.testing._mutation [--jobs N] [--quick] [NAME...]``.
+"""The table mutant x check: ``python tests/testing/mutation.py [--jobs N] [--quick] [NAME...]``.
 
 Exit status 0 if every mutant is caught by the check that should catch it, else 3.
 """
@@ -11,14 +11,15 @@ from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from typing import TYPE_CHECKING
 
-from samplekit.testing._mutants import MUTANTS
+from mutants import MUTANTS
+
 from samplekit.testing._result import BROKEN, Outcome
 from samplekit.testing._suite import CHECKS, check_sampler
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from samplekit.testing._mutants import Mutant
+    from mutants import Mutant
 
 
 def caught(mutant: type[Mutant], outcomes: Sequence[Outcome]) -> bool:
@@ -57,7 +58,7 @@ def table(rows: Sequence[tuple[type[Mutant], list[Outcome]]]) -> list[str]:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print the table; see the module."""
-    parser = argparse.ArgumentParser(prog="python -m samplekit.testing._mutation", description=__doc__)
+    parser = argparse.ArgumentParser(prog="python tests/testing/mutation.py", description=__doc__)
     parser.add_argument("names", nargs="*", metavar="NAME")
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--jobs", type=int, default=2)

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit._bases.realizations import Realizations
-from samplekit.testing._mutants.mutant import ALMOST_ONE, Mutant, indices, per_key
+from mutants.mutant import ALMOST_ONE, Mutant, indices, per_key
+from samplekit import Realizations
 
 if TYPE_CHECKING:
-    from samplekit.testing._mutants.mutant import Array
+    from mutants.mutant import Array
 
 
 class HalfTheDomain(Mutant):

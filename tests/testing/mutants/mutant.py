@@ -7,16 +7,15 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from samplekit._bases.sampler import Sampler
-from samplekit._chosen.sampler import configured_sampler
+import samplekit
+from samplekit import Sampler
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from numpy.typing import NDArray
 
-    from samplekit._bases.realizations import Realizations
-    from samplekit._specs import SamplerSpec
+    from samplekit import Realizations, SamplerSpec
 
     Array = NDArray[np.float64]
 
@@ -38,7 +37,7 @@ class Mutant(Sampler):
             MUTANTS.append(cls)
 
     def __init__(self) -> None:
-        self.inner = configured_sampler(self.base)
+        self.inner = samplekit.sampler(self.base)
 
     def fill(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
         """Write the base's points, then spoil them."""
@@ -52,7 +51,7 @@ class Mutant(Sampler):
     def spec(cls) -> SamplerSpec:
         """The declaration: the base's, and what the mutant claims beyond it."""
         name = "".join("-" + c.lower() if c.isupper() else c for c in cls.__name__).strip("-")
-        base = configured_sampler(cls.base).spec
+        base = samplekit.sampler(cls.base).spec
         target = f"{cls.__module__}:{cls.__name__}"
         # Python drops docstrings if it is asked to (-OO).
         summary = next(iter((cls.__doc__ or name).strip().splitlines()))
