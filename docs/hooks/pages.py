@@ -6,22 +6,21 @@ from typing import Any
 from mkdocs.structure.files import File, Files
 
 ROOT = Path(__file__).parent.parent.parent
+MOVED = (("](docs/", "]("), ("](../docs/", "](../"), ("](../images/", "](images/"))
+"""Links as the repository has them, and as the site does, whose root is the folder of the pages."""
 
 
 def on_files(files: Files, config: Any) -> Files:
     """Add the README, the gallery's page and the pictures."""
-    readme = (ROOT / "README.md").read_text(encoding="utf-8").replace("](docs/", "](")
-    files.append(File.generated(config, "index.md", content=readme.replace("](images/README.md)", "](gallery.md)")))
-    gallery = (ROOT / "images" / "README.md").read_text(encoding="utf-8")
-    files.append(File.generated(config, "gallery.md", content=gallery.replace("](", "](images/")))
-    for path in sorted((ROOT / "images").glob("*.png")):
-        files.append(File.generated(config, f"images/{path.name}", abs_src_path=str(path)))
-    for name in ("CONTRIBUTING.md", "LICENSE"):
-        if (ROOT / name).exists():
-            files.append(File.generated(config, name, abs_src_path=str(ROOT / name)))
+    files.append(File.generated(config, "index.md", abs_src_path=str(ROOT / "README.md")))
+    others = [*sorted((ROOT / "images").iterdir()), *(ROOT / name for name in ("CONTRIBUTING.md", "LICENSE"))]
+    for path in others:
+        files.append(File.generated(config, path.relative_to(ROOT).as_posix(), abs_src_path=str(path)))
     return files
 
 
 def on_page_markdown(markdown: str, **_: Any) -> str:
-    """Let links out of the folder of the pages lead to what was added."""
-    return markdown.replace("](../images/README.md)", "](gallery.md)").replace("](../images/", "](images/")
+    """Let links lead to where the site has the pages and pictures."""
+    for old, new in MOVED:
+        markdown = markdown.replace(old, new)
+    return markdown

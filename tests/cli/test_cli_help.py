@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-COMMANDS = ["render", "compare", "points", "check", "list", "info", "new-plugin", "gallery", "stability"]
+COMMANDS = ["render", "compare", "points", "check", "list", "info", "new-plugin", "stability"]
 COMMANDS += ["spectrum", "predict"]
 
 

@@ -106,17 +106,24 @@ def test_optimised_checks_and_help_are_there(tmp_path):
     """No check is an assert, and no docstring is needed: wrong use is refused, and a broken sampler is found out."""
     program = (
         "from samplekit._cli import run\n"
-        "from samplekit.testing._mutants import MUTANTS\n"
+        "from mutants import MUTANTS\n"
         "assert False\n"
         "codes = [run(['render', '-s', 'jittered', '-n', '7', '--size', '8'])]\n"
         "codes += [run(['--help']), run(['points', '--help'])]\n"
         "codes.append(run(['check', 'jittered', '--quick', '--only', 'range']))\n"
         "print(codes, MUTANTS[0].spec().summary)"
     )
+    path = os.pathsep.join(filter(None, [str(Path(__file__).parents[1] / "testing"), os.environ.get("PYTHONPATH")]))
     done = subprocess.run(
         [sys.executable, "-OO", "-c", program],
         cwd=tmp_path,
-        env={**os.environ, "NUMBA_DISABLE_JIT": "1", "TERM": "dumb", "PYTHONDONTWRITEBYTECODE": "1"},
+        env={
+            **os.environ,
+            "PYTHONPATH": path,
+            "NUMBA_DISABLE_JIT": "1",
+            "TERM": "dumb",
+            "PYTHONDONTWRITEBYTECODE": "1",
+        },
         capture_output=True,
         text=True,
         check=False,

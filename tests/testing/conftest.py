@@ -1,4 +1,4 @@
-"""Strangers' samplers are importable, here and in the processes that checks start."""
+"""Mutants and strangers' samplers are importable, here and in the processes that checks start."""
 
 import os
 import subprocess
@@ -12,8 +12,10 @@ from samplekit._cli import run
 from samplekit._registry import registry
 from samplekit.commands import _notices as notices
 
-STRANGERS = Path(__file__).parent / "strangers"
-sys.path.insert(0, str(STRANGERS))
+HERE = Path(__file__).parent
+STRANGERS = HERE / "strangers"
+# Checks pass sys.path on to the processes that they start.
+sys.path[:0] = [str(HERE), str(STRANGERS)]
 
 ENTRY_POINTS = "[samplekit]\nfaulty = faulty\nheavy = heavy\n"
 

@@ -1,9 +1,9 @@
 """The suite is tested with broken samplers: each is caught by the check that should catch it."""
 
 import pytest
+from mutants import MUTANTS
+from mutation import caught, run_mutant, table
 
-from samplekit.testing._mutants import MUTANTS
-from samplekit.testing._mutation import caught, run_mutant, table
 from samplekit.testing._suite import CHECKS
 
 SLOW_CHECKS_NEEDED = {"NaiveJitter", "NaiveDraw", "DependsOnTheProcess", "CannotBePickled", "SmallBias", "BlindSpot"}

@@ -14,5 +14,4 @@ COMMANDS = (
     CommandSpec("list", _CLI + "listing:list_", "samplers, scenes, randomizers and plugins"),
     CommandSpec("info", _CLI + "info:info", "how an image was made"),
     CommandSpec("new-plugin", _CLI + "new_plugin:new_plugin", "a complete plugin to start from"),
-    CommandSpec("gallery", _CLI + "gallery:gallery", "the pictures of the documentation"),
 )

@@ -178,10 +178,6 @@ def new_plugin(random: Random) -> list[str]:
     ]
 
 
-def gallery(random: Random) -> list[str]:
-    return ["gallery", random.choice(["--names", "--names", "--only=nothing"]), *some(random, (0.5, ["--json"]))]
-
-
 def general(random: Random) -> list[str]:
     alone = [
         "--help",
@@ -200,7 +196,7 @@ def general(random: Random) -> list[str]:
 
 COMMANDS = {
     render: 26, points: 34, compare: 8, spectrum: 8, predict: 3, stability: 0.5, check: 0.5,
-    listing: 8, info: 4, new_plugin: 3, gallery: 1, general: 4,
+    listing: 8, info: 4, new_plugin: 3, general: 4,
 }  # fmt: skip
 """What makes requests, and how many of a hundred."""
 

@@ -1,0 +1,12 @@
+"""
+lloyd
+=====
+
+Relaxed points: a sharp ring, the beginning of a crystal.
+
+    samplekit spectrum --sampler lloyd --count 256 --realizations 400 --max-frequency 64
+"""
+
+from _shared import plate, save
+
+save(plate("lloyd"), __file__)

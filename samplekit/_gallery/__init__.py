@@ -1,1 +1,0 @@
-"""The pictures that the documentation shows, each made from nothing by its own function."""
