@@ -1,8 +1,8 @@
-"""Kernels: numba functions with an explicit signature, compiled once and cached across processes.
+"""Kernels: numba functions with an explicit signature, compiled when they are first called, cached across processes.
 
-The cache of a kernel is keyed by its own source; helpers that it inlines from other files are not part of that key, so
-the source of the folders that hold them is folded in here. Where no cache can be written (read-only installation,
-unwritable home) kernels compile afresh in every process instead of failing.
+A kernel is cached under a key of everything that it is compiled from: its own source, and the helpers and constants of
+other files that it uses, found by walking through its global names. Where no cache can be written (a read-only
+installation, a home that cannot be written) kernels compile afresh in every process instead of failing.
 """
 
 from __future__ import annotations
@@ -10,10 +10,11 @@ from __future__ import annotations
 import functools
 import hashlib
 import importlib
+import inspect
 import os
-import sys
+import threading
 import types
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
@@ -21,60 +22,20 @@ import numba
 import numpy as np
 from numba.core import config
 from numba.core import types as numba_types
+from numba.core.dispatcher import Dispatcher
 from numba.extending import intrinsic, overload
 
 Function = TypeVar("Function", bound=Callable[..., Any])
+_lock = threading.RLock()
+"""Held while a kernel is compiled: numba compiles on one thread at a time in any case."""
 
 if not Path(os.path.expanduser("~")).is_absolute() and not config.CACHE_DIR:  # noqa: PTH111 - pathlib's raises
     # A user without a home: numba would make a folder called "~" where the process happens to run.
     config.CACHE_LOCATOR_CLASSES = "InTreeCacheLocator"
 
-_PACKAGE = Path(__file__).parent.parent
-_FOLDERS_WITH_HELPERS = ("kernels",)
-
-
-@functools.cache
-def _helpers_digest() -> str:
-    digest = hashlib.sha256()
-    for folder in _FOLDERS_WITH_HELPERS:
-        for source in sorted((_PACKAGE / folder).glob("*.py")):
-            digest.update(source.read_bytes())
-    return digest.hexdigest()
-
-
-def _keyed_by_helpers(function: types.FunctionType) -> types.FunctionType:
-    """The same function with the helpers' digest in its closure, which numba makes part of the cache key."""
-    code = function.__code__.replace(co_freevars=("helpers_digest",))
-    closure = (types.CellType(_helpers_digest()),)
-    return types.FunctionType(code, function.__globals__, function.__name__, function.__defaults__, closure)
-
-
-def _cached(function: types.FunctionType, signature: str) -> Any:
-    compiled = numba.njit(nogil=True, cache=True, error_model="numpy")(_keyed_by_helpers(function))
-    try:
-        compiled.compile(signature)
-    except Exception:
-        # A damaged index or entry would be met again by every process: emptied, the cache is written anew.
-        compiled._cache.flush()  # noqa: SLF001 - numba has no other way
-        compiled.compile(signature)
-    compiled.disable_compile()
-    return compiled
-
-
-def _import_without_scipy(module: str) -> None:
-    """Import a part of numba that imports scipy.linalg just to see if there is a BLAS: a quarter of the start-up."""
-    probe = "scipy.linalg.cython_blas"
-    if module in sys.modules or probe in sys.modules:
-        return
-    sys.modules[probe] = types.ModuleType(probe)
-    try:
-        importlib.import_module(module)
-    finally:
-        del sys.modules[probe]
-
 
 def kernel(signature: str) -> Callable[[Function], Function]:
-    """Compile a function for ``signature``, without the interpreter's lock, cached where a cache can be written.
+    """Compile a function for ``signature`` at its first call, without the interpreter's lock, cached where possible.
 
     Floating point is IEEE in program order (no fastmath): the same numbers in any tile, thread and vector width.
 
@@ -82,25 +43,150 @@ def kernel(signature: str) -> Callable[[Function], Function]:
     ----------
     signature
         A numba signature such as ``"void(float64[:,:,::1], uint64[::1])"``.
+
+    Examples
+    --------
+    >>> from samplekit.kernels import kernel
+    >>> @kernel("float64(float64)")
+    ... def double(x):
+    ...     return 2.0 * x
+    >>> double(4.0)
+    8.0
     """
 
-    def compile_kernel(function: Function) -> Function:
+    def prepare(function: Function) -> Function:
         if config.DISABLE_JIT:
             return np.errstate(over="ignore")(function)
-        _import_without_scipy("numba.np.arraymath")
-        try:
-            compiled = _cached(cast("types.FunctionType", function), signature)
-        except Exception:
-            # No cache can be written; a fault of the kernel itself shows again on the next line.
-            compiled = numba.njit(signature, nogil=True, error_model="numpy")(function)
-        return cast("Function", compiled)
+        source = cast("types.FunctionType", function)
+        dispatcher = numba.njit(nogil=True, error_model="numpy")(source)
+        dispatcher.declared_signature = signature
+        # Numba calls this where a dispatcher has no machine code for the arguments.
+        dispatcher._compile_for_args = functools.partial(_compile_at_first_call, dispatcher)  # noqa: SLF001 - see above
+        return cast("Function", dispatcher)
 
-    return compile_kernel
+    return prepare
 
 
 def helper(function: Function) -> Function:
-    """Mark a function that kernels inline; callable from Python as well."""
+    """Mark a function that kernels inline; callable from Python as well.
+
+    Examples
+    --------
+    >>> from samplekit.kernels import helper
+    >>> @helper
+    ... def square(x):
+    ...     return x * x
+    >>> square(3)
+    9
+    """
     return cast("Function", numba.njit(inline="always", error_model="numpy")(function))
+
+
+def _compile_at_first_call(dispatcher: Any, *arguments: Any, **_: Any) -> Any:
+    """Compile a kernel and return its entry point, if it takes such arguments."""
+    _ensure_compiled(dispatcher)
+    ((expected, compiled),) = dispatcher.overloads.items()
+    given = [dispatcher.typeof_pyval(argument) for argument in arguments]
+    convertible = map(dispatcher.typingctx.can_convert, given, expected)
+    if len(given) != len(expected) or any(conversion is None for conversion in convertible):
+        raise TypeError(f"{dispatcher.py_func.__name__} takes {expected}, not {tuple(given)}")
+    return compiled.entry_point
+
+
+@functools.cache
+def _load_registries() -> None:
+    """Have numba load its part for arrays without its look for a BLAS, which imports scipy.linalg: a sixth of a start.
+
+    Kernels use no linear algebra; a function that does asks for the BLAS itself when it is compiled.
+    """
+    from numba.np import linalg
+
+    look = linalg.ensure_blas
+    linalg.ensure_blas = lambda: None
+    try:
+        importlib.import_module("numba.np.arraymath")
+    finally:
+        linalg.ensure_blas = look
+
+
+def _ensure_compiled(dispatcher: Any) -> None:
+    """Compile a kernel for its signature, or load it from the cache."""
+    with _lock:
+        if dispatcher.signatures:
+            return
+        _load_registries()
+        key = hashlib.sha256()
+        for other in _used(dispatcher.py_func, {}):
+            if hasattr(other, "declared_signature"):
+                # Kernels that this one calls: compiled before it, for their own signatures.
+                _ensure_compiled(other)
+            key.update(_content(other))
+        _compile(dispatcher, key.hexdigest())
+        # From now on numba's own method refuses other arguments.
+        del dispatcher._compile_for_args  # noqa: SLF001 - see above
+
+
+def _compile(dispatcher: Any, key: str) -> None:
+    # Numba makes what a function's closure holds part of the key of its cache.
+    function = dispatcher.py_func
+    code = function.__code__.replace(co_freevars=("key",))
+    keyed = types.FunctionType(
+        code, function.__globals__, function.__name__, function.__defaults__, (types.CellType(key),)
+    )
+    dispatcher.py_func = keyed
+    signature = dispatcher.declared_signature
+    try:
+        dispatcher.enable_caching()
+        try:
+            dispatcher.compile(signature)
+        except Exception:
+            # A damaged index or entry would be met again by every process: emptied, the cache is written anew.
+            dispatcher._cache.flush()  # noqa: SLF001 - numba has no other way
+            dispatcher.compile(signature)
+    except Exception:
+        # No cache can be written; a fault of the kernel itself shows again on the next line.
+        dispatcher._cache = numba.core.caching.NullCache()  # noqa: SLF001 - numba has no other way
+        dispatcher.compile(signature)
+    dispatcher.disable_compile()
+
+
+def _used(function: types.FunctionType, seen: dict[int, object]) -> Iterator[object]:
+    """Yield the functions and constants that a function reaches through global names, each once."""
+    for name in _names(function.__code__):
+        if name not in function.__globals__:
+            continue
+        value = function.__globals__[name]
+        if id(value) in seen:
+            continue
+        seen[id(value)] = value
+        yield value
+        inner = value.py_func if isinstance(value, Dispatcher) else value
+        if isinstance(inner, types.FunctionType):
+            yield from _used(inner, seen)
+
+
+def _names(code: types.CodeType) -> Iterator[str]:
+    """Yield the global names of a function's code, and of the functions within it."""
+    yield from code.co_names
+    for constant in code.co_consts:
+        if isinstance(constant, types.CodeType):
+            yield from _names(constant)
+
+
+def _content(value: object) -> bytes:
+    """Return what a kernel is compiled from where it uses the value."""
+    inner = value.py_func if isinstance(value, Dispatcher) else value
+    if isinstance(inner, types.FunctionType):
+        # The whole file: what numba puts in the place of a function stands beside it.
+        return _source(inspect.getfile(inner))
+    if isinstance(value, np.ndarray):
+        return bytes(f"{value.dtype.str} {value.shape}", "ascii") + bytes(value.tobytes())
+    return b"" if isinstance(value, types.ModuleType) else repr(value).encode()
+
+
+@functools.cache
+def _source(path: str) -> bytes:
+    return Path(path).read_bytes()
 
 
 def fma(a: float, b: float, c: float) -> float:

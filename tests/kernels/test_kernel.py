@@ -4,7 +4,10 @@ import os
 import subprocess
 import sys
 
+import numpy as np
 import pytest
+
+from samplekit.kernels import kernel
 
 MODULE = """
 import numpy as np
@@ -54,3 +57,61 @@ def test_without_a_home_no_folder_is_made(tmp_path):
     (folder / "__pycache__").write_bytes(b"")
     run(folder, HOME="~", XDG_CACHE_HOME="", PYTHONDONTWRITEBYTECODE="1")
     assert sorted(path.name for path in folder.iterdir()) == ["__pycache__", "toy_kernel.py"]
+
+
+HELPERS = """
+from samplekit.kernels import helper
+
+FACTOR = {factor}
+
+@helper
+def scaled(x):
+    return {factor} * x
+"""
+USER = """
+import numpy as np
+from samplekit.kernels import kernel
+from toy_helpers import scaled
+
+@kernel("void(float64[::1])")
+def one(out):
+    out[0] = scaled(1.0)
+"""
+SHOW = """
+import numpy as np, toy_kernel
+out = np.zeros(1)
+toy_kernel.one(out)
+print(out[0], sum(toy_kernel.one.stats.cache_hits.values()))
+"""
+
+
+def shown(folder):
+    """The kernel's result and the hits of the cache, in a process of its own."""
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(folder), os.environ.get("PYTHONPATH", "")])}
+    done = subprocess.run(
+        [sys.executable, "-c", SHOW], cwd=folder, env=environment, capture_output=True, text=True, check=True
+    )
+    return done.stdout.split()
+
+
+def test_a_helper_of_another_file_that_changes_makes_the_kernel_anew(tmp_path):
+    (tmp_path / "toy_helpers.py").write_text(HELPERS.format(factor=2.0))
+    (tmp_path / "toy_kernel.py").write_text(USER)
+    assert shown(tmp_path) == ["2.0", "0"]
+    assert shown(tmp_path) == ["2.0", "1"]
+    (tmp_path / "toy_helpers.py").write_text(HELPERS.format(factor=3.0))
+    assert shown(tmp_path) == ["3.0", "0"]
+
+
+def test_a_kernel_is_compiled_at_its_first_call_and_refuses_other_arguments():
+    @kernel("float64(float64[::1])")
+    def first(values):
+        return values[0]
+
+    assert not first.signatures
+    with pytest.raises(TypeError):
+        first(np.zeros((2, 2)))
+    assert first(np.ones(1)) == 1.0
+    assert len(first.signatures) == 1
+    with pytest.raises(TypeError):
+        first(np.zeros(2, np.float32))
