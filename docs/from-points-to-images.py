@@ -15,30 +15,9 @@ def _():
     import samplekit_spectrum
 
     import samplekit
-    from samplekit._drawing.axis import Axis, spanning
-    from samplekit._drawing.chart import Chart, legend
-    from samplekit._drawing.drawing import Disks, Drawing
-    from samplekit._drawing.series import style
-    from samplekit._drawing.vector import svg_text
-    from samplekit.files._images.falsecolor import error_picture
-    from samplekit.files._images.png import encode_srgb
+    from samplekit.plots import PointsDisplay, curve_style, make_axes, style
 
-    return (
-        Axis,
-        Chart,
-        Disks,
-        Drawing,
-        encode_srgb,
-        error_picture,
-        legend,
-        mo,
-        np,
-        samplekit,
-        samplekit_spectrum,
-        spanning,
-        style,
-        svg_text,
-    )
+    return PointsDisplay, curve_style, make_axes, mo, np, samplekit, samplekit_spectrum, style
 
 
 @app.cell
@@ -54,37 +33,36 @@ def _(mo):
 
 
 @app.cell
-def _(Disks, Drawing, mo, np, samplekit, samplers, svg_text):
-    def dots(name):
-        drawing = Drawing(220, 220, name)
-        drawing.frame(0, 0, 219, 219)
-        drawing.add(Disks(220 * samplekit.points(name, count=256)[0], 2.0, "#1f2937"))
-        return mo.vstack([mo.md(f"**{name}**"), mo.Html(svg_text(drawing, {}).partition("\n")[2])])
+def _(PointsDisplay, make_axes, mo, np, samplekit, samplers):
+    _places = [(0, column) for column in range(len(samplers))]
+    _figure, _axes = make_axes(_places, 2.0, 2.0, left=0.4, above=0.55, below=0.1, gap=(0.4, 0.0))
+    for _ax, _name in zip(_axes, samplers, strict=True):
+        PointsDisplay(samplekit.points(_name, count=256)[0]).plot(_ax)
+        _ax.set_title(_name, fontsize=9)
 
     assert all(np.all(samplekit.points(name, count=256) < 1.0) for name in samplers)
-    mo.vstack([mo.md("## 256 points of each"), mo.hstack([dots(name) for name in samplers])])
+    mo.vstack([mo.md("## 256 points of each"), _figure])
     return
 
 
 @app.cell
-def _(Axis, Chart, Drawing, legend, mo, samplekit_spectrum, samplers, style, svg_text):
+def _(curve_style, make_axes, mo, samplekit_spectrum, samplers, style):
     spectra = {
         name: samplekit_spectrum.power(name, 256, realizations=200, max_frequency=48, seed=1) for name in samplers
     }
-    _drawing = Drawing(720, 330, "radial means")
-    _chart = Chart(
-        _drawing, 60, 30, 700, 280, Axis(0, 48, "frequency"), Axis(0, 2.2, "N times the power, mean over rings")
-    )
-    _chart.grid()
+    _figure, (_ax,) = make_axes([(0, 0)], 5.0, 2.2, right=1.4)
     for _number, (_name, _spectrum) in enumerate(spectra.items()):
-        _chart.curve(_spectrum.radial.frequency, 256 * _spectrum.radial.power, style(_number), marked=False)
-    legend(_drawing, 80, 50, [(_name, style(_number)) for _number, _name in enumerate(spectra)])
+        _radial = _spectrum.radial
+        _ax.plot(_radial.frequency, 256 * _radial.power, label=_name, **curve_style(_number, marked=False))
+    _ax.set(xlabel="frequency", ylabel="$N$ times the power, mean over rings", xlim=(0, 48), ylim=(0, 2.2))
+    with style():
+        _ax.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0))
     mo.vstack(
         [
             mo.md(
                 "## Their expected power spectra\n\nWhat is dark in the middle is good: images are strongest at low frequencies."
             ),
-            mo.Html(svg_text(_drawing, {}).partition("\n")[2]),
+            _figure,
         ]
     )
     return (spectra,)
@@ -119,42 +97,19 @@ def _(mo, samplekit_spectrum, samplers):
 
 
 @app.cell
-def _(Chart, Drawing, legend, mo, np, samplekit, samplers, spanning, style, svg_text):
-    counts = [16, 64, 256, 1024]
-    exact = np.pi * 0.3**2
-    errors = {
-        name: [
-            float(np.mean((samplekit.estimate("disk", name, count=n, realizations=400) - exact) ** 2)) for n in counts
-        ]
-        for name in samplers
-    }
-    _drawing = Drawing(720, 380, "convergence")
-    _chart = Chart(
-        _drawing,
-        70,
-        30,
-        700,
-        320,
-        spanning(counts, "samples", 2),
-        spanning(list(errors.values()), "mean square error", 10),
-    )
-    _chart.grid()
-    for _number, (_name, _errors) in enumerate(errors.items()):
-        _chart.curve(counts, _errors, style(_number))
-    _chart.guide(-1.0, 16, errors["random"][0] if "random" in errors else 1e-2, "1/N")
-    legend(_drawing, 90, 230, [(_name, style(_number)) for _number, _name in enumerate(errors)])
-    mo.vstack([mo.md("## So the error falls"), mo.Html(svg_text(_drawing, {}).partition("\n")[2])])
+def _(mo, samplekit, samplers):
+    study = samplekit.compare(samplers, "disk", [16, 64, 256, 1024], trials=400, size=(1, 1), times=False)
+    mo.vstack([mo.md("## So the error falls"), study.plot().figure_])
     return
 
 
 @app.cell
-def _(encode_srgb, error_picture, mo, samplekit, samplers):
+def _(mo, samplekit, samplers):
     def beside(name):
         result = samplekit.render("zoneplate:k=300", name, spp=4, size=(160, 160))
-        images = [mo.image(encode_srgb(result.image)), mo.image(error_picture(result.error, scale=0.5)[0])]
-        return mo.vstack([mo.md(f"**{name}**: mse {result.metrics['mse']:.4f}"), *images])
+        return mo.vstack([mo.md(f"**{name}**: mse {result.metrics['mse']:.4f}"), result.plot(scale=0.5).figure_])
 
-    mo.vstack([mo.md("## And the image gets better"), mo.hstack([beside(name) for name in samplers])])
+    mo.vstack([mo.md("## And the image gets better"), *[beside(name) for name in samplers]])
     return
 
 

@@ -29,7 +29,7 @@ def points(
             "-o",
             metavar="FILE",
             help="A file that ends in .csv, .plain.csv (coordinates alone, as Samplin' Safari reads), .npy, .dat or"
-            " .bin (UTK's), .svg or .png; without it CSV goes to standard output.",
+            " .bin (UTK's), .svg, .png or .pdf; without it CSV goes to standard output.",
         ),
     ] = "",
     json: JsonOption = False,
@@ -46,11 +46,14 @@ def points(
     from samplekit.commands import parse_count, parse_seed
     from samplekit.commands._notices import announce_compilation
     from samplekit.commands._progress import Progress
-    from samplekit.files._pointsets.write import check_path, title_of, write_points
+    from samplekit.files._pointsets.write import PICTURES, check_path, write_points
 
     path = Path(output) if output else None
-    if path is not None:
-        check_path(path, realizations, dims)
+    picture = path is not None and check_path(path, realizations) in PICTURES
+    if picture:
+        from samplekit.plots._points import PointsDisplay, check_dims
+
+        check_dims(dims)
     number, start = parse_count(count, "count"), parse_seed(seed)
     announce_compilation()
     from samplekit._configured.sampler import sampler as configured_sampler
@@ -64,16 +67,11 @@ def points(
         source.prepare(number, dims, progress)
     values = source.points(number, dims, realizations=realizations, seed=start)
     if path is not None:
-        title = title_of(source.text, number, dims, start)
         with Progress("writing") as progress:
-            write_points(
-                values,
-                path,
-                spec=source.spec,
-                title=title,
-                metadata=_metadata(source, number, dims, start),
-                progress=progress,
-            )
+            if picture:
+                PointsDisplay.of_set(source, values[0], start).save(path, _metadata(source, number, dims, start))
+            else:
+                write_points(values, path, progress=progress)
     if json:
         from json import dumps
 

@@ -6,7 +6,7 @@ import math
 import os
 import time
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -22,11 +22,13 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
+    from matplotlib.axes import Axes
     from numpy.typing import NDArray
 
     from samplekit._configured.sampler import ConfiguredSampler
     from samplekit._configured.scene import ConfiguredScene
     from samplekit._specs import SamplerSpec, SceneSpec
+    from samplekit.plots import RenderingDisplay
 
     Progress = Callable[[int, int], None]
 
@@ -91,6 +93,38 @@ class Rendering:
             "seconds": self.seconds,
             "files": [str(file) for file in self.files],
         }
+
+    def plot(
+        self,
+        part: Literal["image", "reference", "error"] | None = None,
+        *,
+        ax: Axes | None = None,
+        axes: Any = None,
+        scale: float | None = None,
+    ) -> RenderingDisplay:
+        """Draw the image, the reference and the error side by side, or one of them.
+
+        Parameters
+        ----------
+        part
+            ``"image"``, ``"reference"`` or ``"error"``; None: all that there are.
+        ax, axes
+            The axes of matplotlib to draw on, of one part or of several; None: a new figure.
+        scale
+            The error that has the strongest colour; None: the largest error, rounded up.
+
+        Returns
+        -------
+        samplekit.plots.RenderingDisplay
+
+        Raises
+        ------
+        UsageError
+            An unknown part, one that was left out, or another number of axes.
+        """
+        from samplekit.plots import RenderingDisplay
+
+        return RenderingDisplay(self, part, scale).plot(ax, axes=axes)
 
     def save(self, output: str | os.PathLike[str] = "", *, scale: float | None = None) -> Rendering:
         """Write STEM.exr, STEM.png and, where there is an error, STEM.error.png: all of them or none.

@@ -128,21 +128,15 @@ def write(folder: Path, sweep: Stability) -> list[Path]:
     SamplekitError
         The writing failed.
     """
-    from samplekit._drawing.raster import draw_pixels
     from samplekit._provenance import versions
-    from samplekit._stability.heatmap import heat_map
-    from samplekit.files._images.png import png_writer
-    from samplekit.files._verified import text_writer
-    from samplekit.files._writing import write_group
+    from samplekit.files import text_writer, write_group
+    from samplekit.plots import figure_writer
 
     cells, realizations, seed = sweep.cells, sweep.realizations, sweep.seed
     metadata = {"schema": SCHEMA, "realizations": realizations, "seed": str(seed), "versions": versions()}
     items = [(folder / "stability.csv", text_writer(list(csv_lines(cells))))]
     for name in dict.fromkeys(cell.name for cell in cells):
-        of_scene = [cell for cell in cells if cell.name == name]
-        title = f"{name}: {realizations} realisations, seed {seed}"
-        pixels = draw_pixels(heat_map(name, of_scene, title))
-        facts = {**metadata, "scene": name, "cells": [as_record(cell) for cell in of_scene]}
-        items.append((folder / f"{_file(name)}.png", png_writer(pixels, facts)))
+        facts = {**metadata, "scene": name, "cells": [as_record(cell) for cell in cells if cell.name == name]}
+        items.append((folder / f"{_file(name)}.png", figure_writer(sweep.plot(name).figure_, ".png", facts)))
     write_group(items)
     return [path for path, _ in items]

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from samplekit._bases.reference import Reference
     from samplekit._configured.sampler import ConfiguredSampler
     from samplekit._configured.scene import ConfiguredScene
+    from samplekit.plots import StabilityDisplay
 
 SAMPLERS = ("random", "jittered", "correlated-multi-jittered", "halton+owen", "sobol+owen")
 COUNTS = (2**4, 2**8, 2**12, 2**16)
@@ -103,6 +104,29 @@ class Stability:
         from samplekit._stability.report import table
 
         return list(table(self.cells))
+
+    def plot(self, scene: str | None = None, *, axes: Any = None) -> StabilityDisplay:
+        """Draw the digits that are right, and those that summation lost, as heat maps.
+
+        Parameters
+        ----------
+        scene
+            Name of the scene; None: the only one.
+        axes
+            The axes of matplotlib to draw on: two for each sampler, the upper row first. None: a new figure.
+
+        Returns
+        -------
+        samplekit.plots.StabilityDisplay
+
+        Raises
+        ------
+        UsageError
+            A scene that is not in the sweep, or none where there are several; another number of axes.
+        """
+        from samplekit.plots import StabilityDisplay
+
+        return StabilityDisplay(self, scene).plot(axes)
 
     def save(self, folder: str | os.PathLike[str]) -> Stability:
         """Write stability.csv and a heat map for each scene, all of them or none; return the sweep with its ``files``.

@@ -42,3 +42,8 @@ def check_folder(folder: Path, *, resume: bool) -> None:
     if names and NAME not in names:
         raise UsageError(f"{shown(folder)} holds results without their {NAME}: choose an empty folder")
     check_targets([folder / name for name in (NAME, CSV, JSON)])
+
+
+def file_name(text: str) -> str:
+    """Return a scene or a sampler as a part of a file's name."""
+    return text.replace(":", "-").replace("/", "-").replace("\\", "-")

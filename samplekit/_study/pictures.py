@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit._integrate.rendering import Rendering, render
-from samplekit._study.folder import IMAGES
-from samplekit._study.plots import file_name
+from samplekit._study.folder import IMAGES, file_name
 from samplekit._study.results import Pictures
 from samplekit.files._images.falsecolor import rounded_up
 

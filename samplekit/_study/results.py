@@ -7,12 +7,17 @@ from __future__ import annotations
 
 import json
 from dataclasses import asdict, dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from samplekit._errors import UsageError
 from samplekit._study.answers import Choice, Crossing, Fit, Flip, LeftOut, ToTarget
 from samplekit._study.measured import LEVEL, Clock, Interval, Pictures, Row, Spread, Times
 from samplekit._study.plain_data import from_plain
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from samplekit.plots import StudyDisplay
 
 SCHEMA = "samplekit.study/1"
 
@@ -99,6 +104,33 @@ class Results:
     sentences: list[str] = field(default_factory=list)
     plots: list[str] = field(default_factory=list)
     crossings: list[Crossing] = field(default_factory=list)
+
+    def plot(
+        self, scene: str | None = None, *, against: Literal["samples", "time"] = "samples", ax: Axes | None = None
+    ) -> StudyDisplay:
+        """Draw the mean squared error on one scene, a curve for each sampler.
+
+        Parameters
+        ----------
+        scene
+            One of ``scenes``; None: the only one.
+        against
+            ``"samples"`` of a pixel, or ``"time"``: the seconds of one trial.
+        ax
+            The axes of matplotlib to draw on; None: a new figure.
+
+        Returns
+        -------
+        samplekit.plots.StudyDisplay
+
+        Raises
+        ------
+        UsageError
+            A scene that is not in the study, or none where there are several; there is nothing to draw.
+        """
+        from samplekit.plots import StudyDisplay
+
+        return StudyDisplay(self, scene, against).plot(ax)
 
 
 def to_json(results: Results) -> str:

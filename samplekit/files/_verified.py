@@ -1,4 +1,4 @@
-"""Text into a file, read back to be sure: what `samplekit.files._writing.write_group` expects of a writer."""
+"""Write text or bytes and read them back: the writers that `samplekit.files._writing.write_group` takes."""
 
 from __future__ import annotations
 
@@ -16,14 +16,18 @@ if TYPE_CHECKING:
 
 def text_writer(pieces: Iterable[str]) -> Writer:
     """Make a writer of text as UTF-8 with the line ends it has, on every system; the pieces are taken one at a time."""
+    return data_writer(piece.encode() for piece in pieces)
+
+
+def data_writer(pieces: Iterable[bytes]) -> Writer:
+    """Make a writer of bytes; the pieces are taken one at a time."""
 
     def write(temporary: Path) -> None:
         written = hashlib.sha256()
         with temporary.open("wb") as file:
             for piece in pieces:
-                encoded = piece.encode()
-                written.update(encoded)
-                file.write(encoded)
+                written.update(piece)
+                file.write(piece)
         with temporary.open("rb") as file:
             stored = hashlib.file_digest(file, "sha256")
         if stored.digest() != written.digest():

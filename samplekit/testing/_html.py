@@ -69,39 +69,32 @@ def _row(outcome: Outcome) -> str:
 
 
 def _figure(example: CounterExample) -> str:
-    """A picture of the failing set, its cell shaded and the points that break it circled; nothing if there is none."""
+    """Draw the failing set with its cell shaded and the points that break it circled; empty if there are no points."""
     if example.points is None or not len(example.points):
         return ""
     import numpy as np
 
-    from samplekit.files._pointsets.picture import make_picture
-    from samplekit.files._pointsets.svg import svg_text
+    from samplekit.plots._points import PointsDisplay
+    from samplekit.plots._saving import inline_svg
 
     points = example.points
     axes = list(example.axes) or list(range(min(points.shape[1], 2)))
     axes = axes[:2] if len(axes) > 1 or points.shape[1] == 1 else [axes[0], next(i for i in (0, 1) if i != axes[0])]
     drawn = np.clip(np.nan_to_num(points[:, axes], nan=0.0), 0.0, 1.0)
-    picture = make_picture(drawn, (), f"{example.sampler}, dimensions {', '.join(map(str, axes))}")
-    svg = "".join(svg_text(picture, {})).partition("?>\n")[2]
-    panel = picture.panels[0]
-    ring = 'fill="none" stroke="#1f5fbf" stroke-width="2"'
-    cell = ""
+    names = ", ".join(map(str, axes))
+    display = PointsDisplay(drawn, title=f"{example.sampler}, dimensions {names}", names=axes).plot()
     if example.box:
         edges = dict(zip(example.axes, example.box, strict=True))
-        (x, right), (y, bottom) = (edges.get(axis, (0.0, 1.0)) for axis in [*axes, -1][:2])
-        cell = (
-            f'<rect x="{panel.left + x * panel.width:.2f}" y="{panel.top + y * panel.height:.2f}"'
-            f' width="{(right - x) * panel.width:.2f}" height="{(bottom - y) * panel.height:.2f}"'
-            ' fill="#c2281d" fill-opacity="0.15"/>'
+        (left, right), (low, high) = (edges.get(axis, (0.0, 1.0)) for axis in [*axes, -1][:2])
+        display.ax_.fill(
+            [left, right, right, left], [low, low, high, high], color="#c2281d", alpha=0.15, linewidth=0.0, gid="cell"
         )
     start = _first_index(example) if example.indices else 0
-    circles = ""
-    for index in example.indices[:64]:
-        row = index - start
-        if 0 <= row < len(drawn) and len(panel.axes) == 2:
-            x, y = panel.left + drawn[row, 0] * panel.width, panel.top + drawn[row, 1] * panel.height
-            circles += f'<circle cx="{x:.2f}" cy="{y:.2f}" r="9" {ring}/>'
-    return f"<figure>{svg.replace('</svg>', cell + circles + '</svg>')}</figure>"
+    rows = [index - start for index in example.indices[:64] if 0 <= index - start < len(drawn)]
+    if len(axes) == 2:
+        x, y = drawn[rows].T
+        display.ax_.scatter(x, y, 81.0, facecolors="none", edgecolors="#1f5fbf", linewidths=1.2, clip_on=False)
+    return f"<figure>{inline_svg(display.figure_)}</figure>"
 
 
 def _first_index(example: CounterExample) -> int:

@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-HEAVY = ["numpy", "scipy", "numba", "OpenImageIO", "skimage", "psutil"]
+HEAVY = ["numpy", "scipy", "numba", "OpenImageIO", "skimage", "psutil", "matplotlib"]
 
 DRIVER = """
 import contextlib, io, json, sys
@@ -145,6 +145,30 @@ def test_rendering_without_error_imports_neither_metrics_nor_statistics(tmp_path
 def test_rendering_with_error_imports_no_statistics_and_no_scikit_image(tmp_path):
     arguments = ["render", "--sampler", "random", "--spp", "4", "--size", "8", "--scene", "disk"]
     assert driven([arguments], ["skimage", "scipy.stats"], tmp_path)[" ".join(arguments)] == [0, True, []]
+
+
+def test_matplotlib_is_imported_only_when_something_is_drawn(tmp_path):
+    compare = ["compare", "-s", "random", "-s", "jittered", "--scene", "disk", "--spp", "1,4", "--trials", "2"]
+    commands = [
+        ["list"],
+        ["--help"],
+        ["points", "--help"],
+        ["render", "--sampler", "random", "--spp", "4", "--size", "8", "--scene", "disk"],
+        [*compare, "--size", "4", "--no-time"],
+        ["points", "--sampler", "random", "--count", "4"],
+        ["points", "--sampler", "random", "--count", "4", "--output", "points.csv", "--json"],
+        ["stability", "--scene", "offset", "--sampler", "random", "--count", "4", "--realizations", "2"],
+    ]
+    found = driven(commands, ["matplotlib", "PIL"], tmp_path)
+    del found["import samplekit"], found["implementations"]
+    assert found == {" ".join(arguments): [0, True, []] for arguments in commands}
+    assert {path.name for path in tmp_path.glob("*.png")} == {"disk-random-4spp.png", "disk-random-4spp.error.png"}
+
+
+def test_pictures_need_no_windows_and_no_global_figures(tmp_path):
+    arguments = ["points", "--sampler", "random", "--count", "4", "--output", "points.svg"]
+    found = driven([arguments], ["matplotlib.pyplot", "tkinter"], tmp_path)
+    assert found[" ".join(arguments)] == [0, True, []]
 
 
 def test_the_public_names_are_loaded_when_they_are_used():

@@ -8,7 +8,7 @@ more than others.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,7 +18,11 @@ from samplekit_spectrum.radial import Radial
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
+
+    from samplekit_spectrum.map_display import MapDisplay
+    from samplekit_spectrum.radial_display import RadialDisplay
 
 LOW = 0.125
 """Cycles per pixel below which a frequency counts as low: a quarter of the highest."""
@@ -53,6 +57,36 @@ class ErrorSpectrum:
     bias: float
     rmse: float
     verdict: str
+
+    def plot(self, ax: Axes | None = None, *, title: str = "") -> MapDisplay:
+        """Draw the power over the plane of frequencies.
+
+        Parameters
+        ----------
+        ax
+            The axes of matplotlib to draw on; None: a new figure.
+        title
+            Stands above a new figure; by default the verdict.
+        """
+        from samplekit_spectrum.map_display import MapDisplay
+
+        return MapDisplay.from_error(self, title or f"spectrum of an error: {self.verdict}").plot(ax)
+
+    def plot_radial(self, ax: Axes | None = None, *, axes: Any = None, title: str = "") -> RadialDisplay:
+        """Draw the radial mean, and the anisotropy.
+
+        Parameters
+        ----------
+        ax
+            The axes of matplotlib to draw the power on, without the anisotropy.
+        axes
+            Two of them, for both. None: a new figure.
+        title
+            Stands above a new figure; by default the verdict.
+        """
+        from samplekit_spectrum.radial_display import RadialDisplay
+
+        return RadialDisplay.from_error(self, title or f"spectrum of an error: {self.verdict}").plot(ax, axes=axes)
 
 
 def read_error(path: Path) -> NDArray[np.float64]:

@@ -8,19 +8,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from samplekit import UsageError
-from samplekit._drawing.raster import draw_pixels
-from samplekit._drawing.vector import svg_text
-from samplekit.files import check_targets, parts_writer, png_writer, shown, text_writer, write_group
+from samplekit.files import check_targets, parts_writer, shown, text_writer, write_group
+from samplekit.plots import figure_writer
 from samplekit_spectrum.frequencies import Cube, Listed
-from samplekit_spectrum.picture import Panel, maps_picture, spectrum_picture
-from samplekit_spectrum.plot import radial_plot, spectrum_plot
+from samplekit_spectrum.map_display import MapDisplay
+from samplekit_spectrum.radial_display import RadialDisplay
 from samplekit_spectrum.tables import listed_csv, radial_csv
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from samplekit._drawing.drawing import Drawing
     from samplekit.files import Writer
+    from samplekit.plots import Display
     from samplekit_spectrum.error_image import ErrorSpectrum
     from samplekit_spectrum.spectrum import Spectrum
 
@@ -76,35 +75,22 @@ def write_spectra(stem: Path, spectra: Sequence[Spectrum], metadata: dict[str, A
     cube = first.frequencies
     writers: dict[str, Writer] = {".exr": parts_writer(_parts(spectra), metadata)}
     if cube.dims > 1:
-        pixels, facts = spectrum_picture(spectra, scale)
-        writers[".png"] = png_writer(pixels, {**metadata, "picture": facts})
+        display = MapDisplay.from_spectra(spectra, scale)
+        _add_pictures(writers, display, {**metadata, "picture": display.facts}, [".png"])
     writers[".radial.csv"] = text_writer([radial_csv(spectra)])
     if len(spectra) == 1:
-        _add_plots(writers, spectrum_plot(first), metadata)
+        _add_pictures(writers, RadialDisplay.from_spectrum(first), metadata, RADIAL[1:])
     return _write(writers, stem)
 
 
 def write_error_spectrum(stem: Path, spectrum: ErrorSpectrum, metadata: dict[str, Any], name: str) -> list[Path]:
     """Write the files of an error image's spectrum."""
     power = np.where(np.isnan(spectrum.power), 0.0, spectrum.power)
-    panel = Panel(spectrum.power, "", "cycles per pixel along x; down: y", (-0.5, 0.5))
-    headline, condition = f"error of {name}: {spectrum.verdict}", "power over its mean"
-    plot = radial_plot(
-        spectrum.radial,
-        1.0,
-        headline=headline,
-        condition=condition,
-        marks=[],
-        realizations=1,
-        power_label="power over its mean, mean over rings (band: 99 % interval)",
-        unit="cycles per pixel",
-    )
-    writers: dict[str, Writer] = {
-        ".exr": parts_writer({"power": power}, metadata),
-        ".png": png_writer(maps_picture([panel], headline, condition, words=("power over its mean", "DC")), metadata),
-        ".radial.csv": text_writer([radial_csv([spectrum])]),
-    }
-    _add_plots(writers, plot, metadata)
+    title = f"error of {name}: {spectrum.verdict}"
+    writers: dict[str, Writer] = {".exr": parts_writer({"power": power}, metadata)}
+    _add_pictures(writers, MapDisplay.from_error(spectrum, title), metadata, [".png"])
+    writers[".radial.csv"] = text_writer([radial_csv([spectrum])])
+    _add_pictures(writers, RadialDisplay.from_error(spectrum, title), metadata, RADIAL[1:])
     return _write(writers, stem)
 
 
@@ -114,9 +100,12 @@ def _write(writers: dict[str, Writer], stem: Path) -> list[Path]:
     return [path for path, _ in items]
 
 
-def _add_plots(writers: dict[str, Writer], drawing: Drawing, metadata: dict[str, Any]) -> None:
-    writers[".radial.png"] = png_writer(draw_pixels(drawing, 2), metadata)
-    writers[".radial.svg"] = text_writer([svg_text(drawing, metadata)])
+def _add_pictures(
+    writers: dict[str, Writer], display: Display, metadata: dict[str, Any], endings: Sequence[str]
+) -> None:
+    figure = display.plot().figure_
+    for ending in endings:
+        writers[ending] = figure_writer(figure, "." + ending.rpartition(".")[2], metadata)
 
 
 def _parts(spectra: Sequence[Spectrum]) -> dict[str, Any]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -21,9 +21,12 @@ from samplekit_spectrum.sets import Source
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
 
+    from samplekit_spectrum.map_display import MapDisplay
     from samplekit_spectrum.moments import Moments
+    from samplekit_spectrum.radial_display import RadialDisplay
 
 REALIZATIONS = 100
 
@@ -106,17 +109,64 @@ class Spectrum:
     def _shaped(self, half: NDArray[np.float64]) -> NDArray[np.float64]:
         return self.frequencies.full(half) if isinstance(self.frequencies, Cube) else half.copy()
 
-    def _repr_png_(self) -> bytes | None:
+    def plot(
+        self, ax: Axes | None = None, *, axes: Any = None, scale: float | None = None
+    ) -> MapDisplay | RadialDisplay:
+        """Draw N times the power: a map in two dimensions, slices in three, a curve in one.
+
+        Parameters
+        ----------
+        ax
+            The axes of matplotlib to draw on, in one dimension or two.
+        axes
+            Several of them: one for each slice, or for power and anisotropy. None: a new figure.
+        scale
+            N times the power that is drawn white; None: 2.
+
+        Returns
+        -------
+        MapDisplay or RadialDisplay
+            See ``samplekit_spectrum.map_display`` and ``samplekit_spectrum.radial_display``.
+
+        Raises
+        ------
+        UsageError
+            Listed frequencies have no picture; another number of axes.
+        """
         if not isinstance(self.frequencies, Cube):
-            return None
-        from samplekit_spectrum.picture import png_bytes, spectrum_picture
+            raise UsageError("listed frequencies have no picture")
+        if self.frequencies.dims == 1:
+            return self.plot_radial(ax, axes=axes)
+        from samplekit_spectrum.map_display import MapDisplay
 
-        if self.frequencies.dims > 1:
-            return png_bytes(spectrum_picture([self])[0])
-        from samplekit._drawing.raster import draw_pixels
-        from samplekit_spectrum.plot import spectrum_plot
+        return MapDisplay.from_spectra([self], scale).plot(ax, axes=axes)
 
-        return png_bytes(draw_pixels(spectrum_plot(self)))
+    def plot_radial(self, ax: Axes | None = None, *, axes: Any = None) -> RadialDisplay:
+        """Draw the radial mean with its 99 % interval, and the anisotropy.
+
+        Parameters
+        ----------
+        ax
+            The axes of matplotlib to draw the power on, without the anisotropy.
+        axes
+            Two of them, for both. None: a new figure.
+
+        Returns
+        -------
+        RadialDisplay
+            See ``samplekit_spectrum.radial_display``.
+
+        Raises
+        ------
+        UsageError
+            Listed frequencies lie on no rings; another number of axes.
+        """
+        from samplekit_spectrum.radial_display import RadialDisplay
+
+        return RadialDisplay.from_spectrum(self).plot(ax, axes=axes)
+
+    def _repr_png_(self) -> bytes | None:
+        return self.plot()._repr_png_() if isinstance(self.frequencies, Cube) else None
 
     def _repr_html_(self) -> str | None:
         if isinstance(self.frequencies, Cube):

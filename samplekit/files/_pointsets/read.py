@@ -1,4 +1,4 @@
-"""Points from a file of the kind that its ending says: whatever `write_points` writes, pictures excepted.
+"""Read points from a file of the kind that its ending says: whatever `write_points` writes.
 
 ``.npy`` is NumPy's, ``.bin`` is UTK's, anything else is text.
 """

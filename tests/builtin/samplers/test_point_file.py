@@ -9,7 +9,7 @@ import samplekit
 from samplekit._bases.realizations import Realizations
 from samplekit._builtin.samplers.point_file import row_step
 from samplekit._errors import SamplekitError, UsageError
-from samplekit._specs import Exactly, SamplerSpec
+from samplekit._specs import Exactly
 from samplekit.files._pointsets.write import write_points
 
 SETS = np.random.default_rng(8).random((5, 12, 3))
@@ -20,7 +20,7 @@ def chosen(tmp_path):
     """Writes sets and gives the sampler of the file."""
 
     def choose(points=SETS, name="points.npy", suffix=""):
-        write_points(points, tmp_path / name, spec=SamplerSpec("x", "a:B", ""), title="", metadata={})
+        write_points(points, tmp_path / name)
         return samplekit.sampler(f"file:path={tmp_path / name}{suffix}")
 
     return choose

@@ -54,6 +54,18 @@ def test_a_file_is_named_and_its_points_are_not_repeated(tmp_path):
     assert run("--sampler", "jittered", "--count", 96, "--output", path).strip() == str(path)
 
 
+@pytest.mark.parametrize(
+    ("ending", "begins"), [("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF"), ("PDF", b"%PDF")]
+)
+def test_the_ending_chooses_the_kind_of_picture(tmp_path, ending, begins):
+    path = tmp_path / f"points.{ending}"
+    assert run("--sampler", "jittered", "--count", 96, "--output", path).strip() == str(path)
+    written = path.read_bytes()
+    assert written.startswith(begins)
+    run("--sampler", "jittered", "--count", 96, "--output", path)
+    assert path.read_bytes() == written
+
+
 def test_a_picture_says_how_to_make_it_again(tmp_path):
     path = tmp_path / "points.png"
     run("--sampler", "sobol+owen", "--count", 16, "--seed", 5, "--output", path)
@@ -71,9 +83,10 @@ def test_a_picture_says_how_to_make_it_again(tmp_path):
         (["--count", "4", "--realizations", "0"], "realizations 0"),
         (["--count", "4", "--seed", "-1"], "seed -1"),
         (["--count", "97"], "nearest"),
-        (["--count", "96", "--output", "a.jpg"], ".dat, .bin, .svg or .png"),
+        (["--count", "96", "--output", "a.jpg"], ".dat, .bin, .svg, .png or .pdf"),
         (["--count", "96", "--output", "a.svg", "--realizations", "2"], "one realisation"),
         (["--count", "1", "--output", "a.svg", "--dims", "17"], "at most 16"),
+        (["--count", "1", "--output", "a.pdf", "--dims", "17"], "at most 16"),
     ],
 )
 def test_wrong_use_says_what_would_be_right(tmp_path, monkeypatch, arguments, message):

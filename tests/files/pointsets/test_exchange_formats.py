@@ -6,19 +6,17 @@ import numpy as np
 import pytest
 
 from samplekit._errors import SamplekitError, UsageError
-from samplekit._specs import SamplerSpec
 from samplekit.files._pointsets.read import read_points
 from samplekit.files._pointsets.text import parse_points
 from samplekit.files._pointsets.write import write_points
 
-SPEC = SamplerSpec("x", "a:B", "")
 SETS = np.random.default_rng(5).random((3, 7, 2))
 SETS[0, 0] = [0.0, np.nextafter(1.0, 0.0)]
 SETS[1, 2] = [5e-324, 1e-300]
 
 
 def write(path, points):
-    write_points(points, path, spec=SPEC, title="", metadata={})
+    write_points(points, path)
     return path
 
 

@@ -16,7 +16,17 @@ EXTREMES += ("٣", "²", "½", "NaN", "None", "true", "1/0", "1,,2", "..", "2^0.
 EXTREMES += ("a\nb", "\x1b[31m", "\0", "[red]", "%s", "{x}", "$HOME", "~", "a" * 5000, "--", "-", "'", '"')
 LETTERS = "0123456789abcxyz,:+=./^-_ ;@%#\\\"'\n\té\0\udc80"
 FILES = ("a.csv", "b.plain.csv", "c.npy", "d.dat", "e.bin", "image.exr", "image.png", "folder", "missing", "points.svg")
-OUTPUTS = ("out", "out/a.exr", "out/a.csv", "out/b.npy", "out/c.dat", "out/d.bin", "out/e.svg", "out/f.png")
+OUTPUTS = (
+    "out",
+    "out/a.exr",
+    "out/a.csv",
+    "out/b.npy",
+    "out/c.dat",
+    "out/d.bin",
+    "out/e.svg",
+    "out/f.png",
+    "out/g.pdf",
+)
 OUTPUTS += ("out/g.plain.csv", "out/missing/a.exr", "folder", "a.csv/b.exr", "/dev/null", "/proc/a.exr", "out/é.exr")
 CLOSED_FORMS = ("disk", "gaussian", "bilinear", "checker", "step")
 """Scenes whose spectra are known."""

@@ -122,6 +122,9 @@ def _read(path: Path) -> None:
             raise ValueError("rows of different lengths")
     elif ending == ".svg":
         ElementTree.parse(path)
+    elif ending == ".pdf":
+        if not (path.read_bytes().startswith(b"%PDF") and path.read_bytes().rstrip().endswith(b"%%EOF")):
+            raise ValueError("it ends before its end")
     elif ending == ".json":
         json.loads(path.read_text("utf-8"), parse_constant=_refuse)
     elif ending == ".html" and not path.read_text("utf-8").rstrip().endswith("</html>"):
@@ -155,7 +158,7 @@ def _points(report: dict, folder: Path) -> list[str]:
     shape = (report["realizations"], report["count"], report["dims"])
     if report["files"]:
         path = folder / report["files"][0]
-        if path.suffix.lower() in (".svg", ".png"):
+        if path.suffix.lower() in (".svg", ".png", ".pdf"):
             return []
         found = read_points(path)
     else:

@@ -1,0 +1,13 @@
+from ._display import Display as Display
+from ._points import PointsDisplay as PointsDisplay
+from ._rendering import RenderingDisplay as RenderingDisplay
+from ._saving import ENDINGS as ENDINGS
+from ._saving import figure_writer as figure_writer
+from ._saving import save as save
+from ._stability import StabilityDisplay as StabilityDisplay
+from ._study import StudyDisplay as StudyDisplay
+from ._style import COLOURS as COLOURS
+from ._style import add_bar as add_bar
+from ._style import curve_style as curve_style
+from ._style import make_axes as make_axes
+from ._style import style as style

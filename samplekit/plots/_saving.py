@@ -1,0 +1,105 @@
+"""Write figures as PNG, SVG or PDF: whole or not at all, and the same bytes for the same figure."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from samplekit._errors import UsageError
+from samplekit.files._images.metadata import encode
+from samplekit.files._verified import data_writer
+from samplekit.files._writing import write_group
+from samplekit.plots._style import style
+
+if TYPE_CHECKING:
+    import os
+    from collections.abc import Mapping
+
+    from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+    from samplekit.files._writing import Writer
+
+ENDINGS = (".png", ".svg", ".pdf")
+"""Endings of the files that a figure can be written to."""
+
+
+def save(figure: Figure, path: str | os.PathLike[str], metadata: Mapping[str, Any] | None = None) -> None:
+    """Write a figure to a file of the kind that its ending says, or leave the file as it was.
+
+    Parameters
+    ----------
+    figure
+        Any figure of matplotlib.
+    path
+        A name that ends in ``.png``, ``.svg`` or ``.pdf``.
+    metadata
+        How the figure was made: anything that JSON holds. It is stored in the file; ``samplekit info`` reads it from
+        a PNG.
+
+    Raises
+    ------
+    UsageError
+        Another ending, or a path that cannot be written to.
+    SamplekitError
+        The metadata is no JSON, or the writing failed.
+    """
+    path = Path(path)
+    write_group([(path, figure_writer(figure, path.suffix, metadata))])
+
+
+def figure_writer(figure: Figure, ending: str, metadata: Mapping[str, Any] | None = None) -> Writer:
+    """Make a writer of the figure for :func:`samplekit.files.write_group`, with the errors of :func:`save`.
+
+    The figure is drawn here, before anything is written: as pixels at its own resolution, or as vectors whose text
+    stays text. Neither has a date.
+
+    Parameters
+    ----------
+    figure, metadata
+        As in :func:`save`.
+    ending
+        Of the file's name: ``.png``, ``.svg`` or ``.pdf``.
+    """
+    if ending.lower() not in ENDINGS:
+        raise UsageError(f"a figure is written to a name that ends in .png, .svg or .pdf, not {ending!r}")
+    text = encode(metadata or {})
+    if ending.lower() == ".png":
+        from samplekit.files._images.png import png_writer
+
+        return png_writer(_pixels(figure), metadata or {})
+    return data_writer([_vectors(figure, ending.lower()[1:], text)])
+
+
+def inline_svg(figure: Figure) -> str:
+    """Draw the figure as an SVG element for a page of HTML."""
+    text = _vectors(figure, "svg", "").decode()
+    return text[text.index("<svg") :]
+
+
+@style()
+def _vectors(figure: Figure, form: str, description: str) -> bytes:
+    """Draw the figure as ``"svg"`` or ``"pdf"``, with a description among its metadata."""
+    key, date = ("Description", "Date") if form == "svg" else ("Subject", "CreationDate")
+    metadata = {"Creator": "samplekit", date: None, key: description}
+    file = io.BytesIO()
+    # The resolution is that of images inside of the file.
+    figure.savefig(file, format=form, dpi=figure.dpi, metadata=metadata)
+    return file.getvalue()
+
+
+@style()
+def _pixels(figure: Figure) -> NDArray[np.uint8]:
+    """Draw the pixels uint8[h, w, 3], encoded as sRGB."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+    before = figure.canvas
+    canvas = FigureCanvasAgg(figure)
+    try:
+        canvas.draw()  # type: ignore[no-untyped-call]
+        return np.asarray(canvas.buffer_rgba())[..., :3].copy()  # type: ignore[no-untyped-call]
+    finally:
+        figure.set_canvas(before)
