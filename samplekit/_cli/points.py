@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
-from samplekit.commands._options import JsonOption, SamplerOption, SeedOption
-
-if TYPE_CHECKING:
-    from samplekit._configured.sampler import ConfiguredSampler
+from samplekit.commands import JsonOption, SamplerOption, SeedOption
 
 SCHEMA = "samplekit.points/1"
 
@@ -40,38 +37,17 @@ def points(
 
     Example: samplekit points --sampler jittered --count 96 --output jittered.svg
     """
-    from pathlib import Path
+    import samplekit
+    from samplekit.commands import Stages, announce_compilation, fact_lines, parse_count, parse_seed, plugin_facts
 
-    from samplekit._memory import check_memory
-    from samplekit.commands import parse_count, parse_seed
-    from samplekit.commands._notices import announce_compilation
-    from samplekit.commands._progress import Progress
-    from samplekit.files._pointsets.write import PICTURES, check_path, write_points
-
-    path = Path(output) if output else None
-    picture = path is not None and check_path(path, realizations) in PICTURES
-    if picture:
-        from samplekit.plots._points import PointsDisplay, check_dims
-
-        check_dims(dims)
     number, start = parse_count(count, "count"), parse_seed(seed)
     announce_compilation()
-    from samplekit._configured.sampler import sampler as configured_sampler
-    from samplekit.files._pointsets.csv import csv_text
-
-    source = configured_sampler(sampler)
-    source.check(number, dims)
-    # A float64 as the sampler makes it, and another in the order of the output.
-    check_memory(2 * 8 * number * dims * realizations, "these points")
-    with Progress("preparing") as progress:
-        source.prepare(number, dims, progress)
-    values = source.points(number, dims, realizations=realizations, seed=start)
-    if path is not None:
-        with Progress("writing") as progress:
-            if picture:
-                PointsDisplay.of_set(source, values[0], start).save(path, _metadata(source, number, dims, start))
-            else:
-                write_points(values, path, progress=progress)
+    source = samplekit.sampler(sampler)
+    with Stages() as progress:
+        values = samplekit.points(
+            source, number, dims, realizations=realizations, seed=start, output=output or None, progress=progress
+        )
+    facts = plugin_facts(values)
     if json:
         from json import dumps
 
@@ -82,37 +58,19 @@ def points(
             "dims": dims,
             "realizations": realizations,
             "seed": start,
-            "files": [str(path)] if path is not None else [],
+            "files": [output] if output else [],
         }
-        if path is None:
+        if not output:
             report["points"] = values.tolist()
-        typer.echo(dumps(report, allow_nan=False))
-    elif path is not None:
-        typer.echo(str(path))
+        typer.echo(dumps(report | facts, allow_nan=False))
+        return 0
+    if output:
+        typer.echo(output)
     else:
+        from samplekit.files import csv_text
+
         for piece in csv_text(values):
             typer.echo(piece, nl=False)
+    for line in fact_lines(facts):
+        typer.echo(line, err=not output)
     return 0
-
-
-def _metadata(source: ConfiguredSampler, count: int, dims: int, seed: int) -> dict[str, Any]:
-    """How a picture's points were made; the same for the same command, so no times and no paths."""
-    import shlex
-
-    from samplekit._provenance import versions
-
-    words = ["samplekit", "points", "--sampler", source.text, "--count", str(count), "--dims", str(dims)]
-    words += ["--seed", str(seed)]
-    return {
-        "schema": SCHEMA,
-        "command": shlex.join(words),
-        "versions": versions(),
-        # As text, as in the images of renderings: many JSON readers round integers beyond 2^53.
-        "seed": str(seed),
-        "sampler": source.text,
-        "sampler_plugin": str(source.plugin),
-        "sampler_notes": source.notes(count, dims),
-        "count": count,
-        "dims": dims,
-        "realizations": 1,
-    }

@@ -182,6 +182,7 @@ class ConfiguredSampler(Configured):
         seed: int = 0,
         start: int = 0,
         stop: int | None = None,
+        progress: Callable[[int, int], None] = lambda _, __: None,
     ) -> NDArray[np.float64]:
         """Return points start to stop of sets of ``count`` points.
 
@@ -193,6 +194,8 @@ class ConfiguredSampler(Configured):
             From 0 to 2^64 - 1.
         start, stop
             The slice of each set that is returned; by default all of it.
+        progress
+            Called with the numbers of steps done and to do while the sampler makes what its sets share.
 
         Returns
         -------
@@ -213,7 +216,7 @@ class ConfiguredSampler(Configured):
         start, stop = int(start), int(stop)
         # A float64 as the sampler makes it, and another in the order that is returned.
         check_memory(2 * 8 * realizations * dims * (stop - start), "these points")
-        self.prepare(count, dims)
+        self.prepare(count, dims, progress)
         out = np.empty((realizations, dims, stop - start))
         self.fill(out, Realizations.of_trials(0, realizations, seed), count, start)
         return np.ascontiguousarray(out.transpose(0, 2, 1))

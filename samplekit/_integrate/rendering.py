@@ -319,7 +319,7 @@ def render_plan(
 
 def _check_metrics(plan: Plan, ssim: bool, flip: bool) -> None:
     if (ssim or flip) and not plan.reference:
-        raise UsageError("ssim and flip compare with the reference, which is left out")
+        raise UsageError("--ssim and --flip compare with the reference, which --no-error leaves out")
     if ssim:
         from samplekit._metrics import check_ssim
 

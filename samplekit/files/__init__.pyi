@@ -8,6 +8,7 @@ from ._images.png import read_png as read_png
 from ._images.png import write_png as write_png
 from ._images.rendering import check_stem as check_stem
 from ._images.rendering import write_rendering as write_rendering
+from ._pointsets.csv import csv_text as csv_text
 from ._pointsets.read import read_points as read_points
 from ._pointsets.write import write_points as write_points
 from ._verified import text_writer as text_writer

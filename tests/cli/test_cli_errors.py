@@ -6,8 +6,6 @@ import sys
 
 import pytest
 
-from samplekit._configured import sampler as configured
-from samplekit._integrate import plan
 from samplekit._integrate import rendering as renderer
 from samplekit._registry import registry
 
@@ -169,7 +167,6 @@ def test_an_argument_of_a_hundred_thousand_letters_is_one_line(command, tmp_path
 )
 def test_a_place_that_cannot_be_written_to_is_refused_before_any_work(command, tmp_path, monkeypatch, output, reason):
     monkeypatch.setattr(renderer, "render_plan", lambda *_, **__: pytest.fail("it was rendered first"))
-    monkeypatch.setattr(configured, "configured_sampler", lambda *_: pytest.fail("kernels were compiled first"))
     (tmp_path / "file").write_bytes(b"")
     (tmp_path / "b.png").mkdir()
     assert_refused(command, tmp_path, render(output=output), "cannot write", reason)
@@ -231,7 +228,7 @@ def test_old_files_stay_when_the_command_is_refused(command, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "reason"),
     [
-        (["rendr"], "unknown command 'rendr': did you mean render?"),
+        (["rendr"], "unknown command 'rendr': did you mean render or predict?"),
         (["xqxqxq"], "unknown command 'xqxqxq': there are "),
         (["größe"], "unknown command 'größe'"),
         (["--nothing"], "--nothing"),
@@ -332,7 +329,7 @@ def test_a_fault_of_ours_is_one_line_too(command, monkeypatch):
     def broken(*arguments, **more):
         raise LookupError("two\nlines")
 
-    monkeypatch.setattr(plan, "make_plan", broken)
+    monkeypatch.setattr(renderer, "make_plan", broken)
     done = command(*render())
     assert done.status == 1
     assert "internal error: LookupError: two lines (SAMPLEKIT_TRACEBACK=1 shows where)" in done.error
