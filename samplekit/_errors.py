@@ -1,4 +1,4 @@
-"""What can go wrong: each error is one line that a user can act on, and carries what a program needs."""
+"""Errors: each is one line that a user can act on, and an object that carries what a program needs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a plugin may offer. Each hook returns declarations; nothing is imported until it is used.
+"""The hooks of plugins. Each hook returns declarations; an implementation is imported when it is first used.
 
 A distribution offers its plugin under the entry-point group ``samplekit``, naming a light module
 that imports no NumPy at its top.

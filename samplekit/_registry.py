@@ -65,7 +65,7 @@ class Plugin:
 
     @property
     def builtin(self) -> bool:
-        """Whether it comes with samplekit."""
+        """True for the plugin that comes with samplekit."""
         return self.name == BUILTIN
 
     def __str__(self) -> str:

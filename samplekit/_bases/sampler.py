@@ -22,10 +22,10 @@ if TYPE_CHECKING:
 class Sampler:
     """Base of all samplers. Options arrive by keyword, parsed; dashes in their names are underscores here.
 
-    A sampler defines one of two doors:
+    A sampler defines one of two methods:
 
-    - ``fill(out, realizations, count, start)``: writes points of the sets directly (NumPy or a kernel);
-    - ``draw(count, dims, rng)``: makes one set as a whole, the slow door for a first try.
+    - ``fill(out, realizations, count, start)`` writes points of the sets directly, with NumPy or a kernel;
+    - ``draw(count, dims, rng)`` makes one set as a whole: slower, and enough for a first try.
 
     Values may depend on nothing but the options, the realisation (its key, or its pixel and the seed; the blocks of its
     dimensions), the index, the dimension, and, where the sampler is not progressive, the count and the number of
@@ -79,7 +79,7 @@ class Sampler:
         """
 
     def notes(self, count: int, dims: int) -> list[str]:
-        """What a user of these sets should know, such as that they come from a bank; kept with the image."""
+        """Return sentences that a user of these sets should read, for example that they come from a bank."""
         return []
 
     def refine(self, spec: SamplerSpec) -> SamplerSpec:
@@ -96,5 +96,5 @@ class Sampler:
 
     @property
     def streams(self) -> bool:
-        """Whether a part of a set costs a part of the whole: true of ``fill``, false of ``draw``."""
+        """True if a part of a set takes a part of the time of the whole: with ``fill``, but not with ``draw``."""
         return type(self).fill is not Sampler.fill

@@ -38,7 +38,7 @@ class Scene:
     finite_variance: bool = True
 
     def notes(self) -> list[str]:
-        """What a user of this scene should know with these options; shown by ``--explain``, kept with the image."""
+        """Return sentences that a user of this scene should read: ``--explain`` shows them, the image keeps them."""
         return []
 
     def dimensions(self) -> Mapping[str, int]:

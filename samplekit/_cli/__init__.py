@@ -22,7 +22,7 @@ from samplekit.commands import _interrupts as interrupts
 from samplekit.commands._statuses import DONE, FAILED, INTERRUPTED, WRONG_USE
 
 _LONGEST_WORD, _LONGEST_MESSAGE = 300, 6000
-"""Letters; what somebody pasted by mistake is not shown whole."""
+"""Most letters that are shown: somebody may have pasted a file by mistake."""
 _STREAM_ERRORS = (errno.ENOSPC, errno.EIO, errno.EFBIG, errno.EBADF)
 
 # typer does not export the bases of its own exceptions, and they live in a private module.
@@ -48,7 +48,7 @@ def _version(wanted: bool) -> None:
 @app.callback()
 def _main(
     version: Annotated[
-        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and leave.")
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version and exit.")
     ] = False,
 ) -> None:
     """A laboratory for the point samplers of rendering."""

@@ -1,4 +1,4 @@
-"""What every command has: options that are given once, headings in its help, and the options that plugins add to it."""
+"""Commands: options that are given once, headings in the help, and the options that plugins add."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""``samplekit list``: what is there, from the declarations alone."""
+"""``samplekit list``: samplers, scenes, randomizers and plugins, from their declarations alone."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 _KINDS = ("samplers", "scenes", "randomizers", "plugins")
 _WIDE = 100
-"""Letters across a terminal from which on the table of samplers has all its columns."""
+"""Width of a terminal, in letters, from which on the table of samplers has all its columns."""
 
 
 def _complete_kind(incomplete: str) -> list[str]:

@@ -1,4 +1,4 @@
-"""Commands from plugins: found when a name is not one of ours, imported when they run."""
+"""Commands from plugins: looked up when a name is not that of a built-in command, imported when they run."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from samplekit._registry import Registration
 
 OFFICIAL = {"spectrum": "samplekit-spectrum", "predict": "samplekit-spectrum"}
-"""Commands of our own plugins, by the distribution that they come with: who misses one is told where it is."""
+"""Commands of the official plugins by their distribution, so that the error for a missing one says where it is."""
 
 # typer does not export the base of its own exceptions, and it lives in a private module.
 _TyperError: type[Exception] = typer.BadParameter.__mro__[2]

@@ -1,4 +1,4 @@
-"""What a configured sampler, scene and randomizer have in common."""
+"""The parts that configured samplers, scenes and randomizers share."""
 
 from __future__ import annotations
 

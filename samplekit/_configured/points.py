@@ -103,7 +103,9 @@ def _write(
     if path.suffix.lower() in PICTURES:
         from samplekit.plots import PointsDisplay
 
-        PointsDisplay.of_set(source, values[0], seed).save(path, _describe(source, values.shape[1], values.shape[2], seed))
+        PointsDisplay.of_set(source, values[0], seed).save(
+            path, _describe(source, values.shape[1], values.shape[2], seed)
+        )
     else:
         write_points(values, path, progress=progress)
 

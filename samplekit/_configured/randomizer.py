@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class ConfiguredRandomizer(Configured):
-    """What :func:`samplekit.randomizer` returns: a randomizer whose faults name its plugin.
+    """A randomizer, as :func:`samplekit.randomizer` returns it; its faults name its plugin.
 
     Examples
     --------

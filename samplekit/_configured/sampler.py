@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 
 class ConfiguredSampler(Configured):
-    """What :func:`samplekit.sampler` returns: a sampler with its options, followed by randomizers.
+    """A sampler with its options, followed by randomizers, as :func:`samplekit.sampler` returns it.
 
     The text, the options and the plugin are those of :class:`Configured`; ``spec`` is the declaration of the whole: the
     sampler's, as its options and the randomizers change it.
@@ -58,7 +58,7 @@ class ConfiguredSampler(Configured):
     ) -> None:
         super().__init__("sampler", registration, options)
         self.parts = registration, dict(options), randomizers
-        """What makes this sampler: the arguments of its class."""
+        """The arguments of the class that make this sampler."""
         self._sampler: Sampler = self._create(self.options, lambda made: isinstance(made, Sampler), "a Sampler")
         self.spec = self._boundary.call(
             "cannot refine its declaration",

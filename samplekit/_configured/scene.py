@@ -27,7 +27,7 @@ T = TypeVar("T")
 
 
 class ConfiguredScene(Configured):
-    """What :func:`samplekit.scene` returns: a scene with its options.
+    """A scene with its options, as :func:`samplekit.scene` returns it.
 
     Attributes
     ----------

@@ -25,9 +25,9 @@ if TYPE_CHECKING:
     from samplekit._specs import SamplerSpec, SceneSpec
 
 _BYTES_PER_REALIZATION = 9 * 8
-"""Its estimate and sum, its box of four numbers, its key and its pixel."""
+"""An estimate and a sum, a box of four numbers, a key and a pixel."""
 _BLOCK = 256
-"""Realisations in a job."""
+"""Number of realisations in a job."""
 
 
 def estimate(

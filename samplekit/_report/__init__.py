@@ -38,8 +38,7 @@ def write_report(results: Results, folder: Path) -> Path:
         none.
     """
     from samplekit._report.page import page
-    from samplekit.files._verified import text_writer
-    from samplekit.files._writing import write_group
+    from samplekit.files._writing import text_writer, write_group
 
     path = folder / NAME
     write_group([(path, text_writer([page(results, folder)]))])

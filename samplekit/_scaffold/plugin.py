@@ -28,17 +28,17 @@ class NewPlugin:
 
     @property
     def distribution(self) -> str:
-        """As pip knows it."""
+        """Name of the distribution, for pip."""
         return f"samplekit-{self.name}"
 
     @property
     def package(self) -> str:
-        """As Python imports it."""
+        """Name of the package, for Python."""
         return f"samplekit_{self.name.replace('-', '_')}"
 
     @property
     def class_name(self) -> str:
-        """Of the sampler."""
+        """Name of the sampler's class."""
         return "".join(part.capitalize() for part in self.name.split("-"))
 
 

@@ -38,7 +38,7 @@ from samplekit import LatinStrata, SamplerSpec, hookimpl
 
 @hookimpl
 def samplekit_samplers() -> list[SamplerSpec]:
-    """What this plugin offers: every word is checked by `samplekit check @NAME@`."""
+    """Return the declarations of this plugin's samplers; `samplekit check @NAME@` checks each claim."""
     return [
         SamplerSpec(
             "@NAME@",
@@ -70,7 +70,7 @@ class @CLASS@(Sampler):
 '''
 
 _TEST = '''\
-"""What the declaration says of @NAME@ is true: the conformance suite of samplekit."""
+"""The conformance suite of samplekit checks that the declaration of @NAME@ is true."""
 
 import @PACKAGE@
 from samplekit.testing import SamplerConformance

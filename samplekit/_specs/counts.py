@@ -64,7 +64,7 @@ class Counts(ABC):
 
     @property
     def depends_on_dims(self) -> bool:
-        """Whether other counts are allowed in another number of dimensions."""
+        """True if the allowed counts depend on the number of dimensions."""
         return False
 
     def nearest(self, count: int, dims: int) -> list[int]:

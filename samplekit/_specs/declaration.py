@@ -1,4 +1,4 @@
-"""What all declarations have in common."""
+"""The parts that all declarations share, and the declarations of commands and of options."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ TARGET = re.compile(r"^[A-Za-z_][\w.]*:[A-Za-z_]\w*\Z")
 
 @dataclass(frozen=True)
 class Declaration:
-    """What every declaration has.
+    """The fields that every declaration has.
 
     Parameters
     ----------
@@ -117,7 +117,7 @@ class Declaration:
 
 @dataclass(frozen=True)
 class CommandSpec(Declaration):
-    """What a command declares: ``target`` names a function that typer can turn into a command.
+    """The declaration of a command; ``target`` names a function that typer can turn into a command.
 
     Examples
     --------
@@ -129,7 +129,7 @@ class CommandSpec(Declaration):
 
 @dataclass(frozen=True)
 class CommandOption(Declaration):
-    """What a plugin declares to add an option to a command.
+    """The declaration of an option that a plugin adds to a command.
 
     ``target`` names a function that is called as ``function(result, value)`` when the command has its result: the
     object that the public function behind the command returned, and the value of the option. It returns a dictionary of

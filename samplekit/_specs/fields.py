@@ -1,4 +1,4 @@
-"""What the fields of a declaration must be: predicates, and one form of message for all of them."""
+"""Checks of the fields of a declaration, with one form of message for all of them."""
 
 from __future__ import annotations
 

@@ -79,7 +79,7 @@ class Violation:
 
 @dataclass(frozen=True)
 class Promise(ABC):
-    """What a sampler guarantees of every set.
+    """A property that a sampler guarantees for every set.
 
     Examples
     --------

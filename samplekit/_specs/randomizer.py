@@ -1,4 +1,4 @@
-"""What a randomizer declares, before its code is imported."""
+"""The declaration of a randomizer, read before its code is imported."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from samplekit._specs.promise import kinds_of_promises
 
 @dataclass(frozen=True)
 class RandomizerSpec(Declaration):
-    """What a randomizer declares, besides what every :class:`Declaration` has.
+    """The declaration of a randomizer; its first fields are those of :class:`Declaration`.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What a sampler declares, before its code is imported."""
+"""The declaration of a sampler, read before its code is imported."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Kind = TypeVar("Kind", bound=Promise)
 
 @dataclass(frozen=True)
 class SamplerSpec(Declaration):
-    """What a sampler declares, besides what every :class:`Declaration` has.
+    """The declaration of a sampler; its first fields are those of :class:`Declaration`.
 
     Parameters
     ----------

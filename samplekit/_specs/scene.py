@@ -1,4 +1,4 @@
-"""What a scene declares, before its code is imported."""
+"""The declaration of a scene, read before its code is imported."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def _is_setting(text: object) -> bool:
 
 @dataclass(frozen=True)
 class SceneSpec(Declaration):
-    """What a scene declares, besides what every :class:`Declaration` has.
+    """The declaration of a scene; its first fields are those of :class:`Declaration`.
 
     Every scene with pixel dimensions also takes the option ``pixel-filter``, which its code never sees.
 

@@ -10,8 +10,7 @@ from samplekit._study.folder import CSV, JSON, PLOTS, file_name
 from samplekit._study.pictures import write_pictures
 from samplekit._study.results import SCHEMA, to_json
 from samplekit._study.table import table_text
-from samplekit.files._verified import text_writer
-from samplekit.files._writing import Writer, write_group
+from samplekit.files._writing import Writer, text_writer, write_group
 from samplekit.plots._saving import figure_writer
 from samplekit.plots._study import Against, StudyDisplay
 

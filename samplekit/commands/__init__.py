@@ -1,4 +1,4 @@
-"""What the command of a plugin needs: shared options, values from text, progress, and notices."""
+"""Parts for the commands of plugins: shared options, values from text, progress, notices, and exit statuses."""
 
 import lazy_loader
 

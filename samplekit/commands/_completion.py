@@ -17,7 +17,7 @@ def complete_scene(incomplete: str) -> list[tuple[str, str]]:
 
 
 def complete_named(kinds: str, incomplete: str) -> list[tuple[str, str]]:
-    """What is called like that among ``samplers``, ``scenes``, ``randomizers`` or ``plugins``."""
+    """Return names of a kind (``samplers``, ``scenes``, ``randomizers``) with their summaries."""
     if kinds == "samplers":
         return complete_sampler(incomplete)
     return _names(kinds.removesuffix("s"))

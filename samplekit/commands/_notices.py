@@ -1,4 +1,4 @@
-"""A word on stderr when something takes longer the first time."""
+"""Tell the user on stderr when something takes longer the first time."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 
 
 def announce_compilation() -> None:
-    """Say once, when the first kernel is compiled instead of being loaded from the cache, what is going on."""
+    """Tell the user once that kernels are compiled, when the first one is not in the cache."""
     from numba.core import event
 
     class _Announcement(event.Listener):  # type: ignore[misc]

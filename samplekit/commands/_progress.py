@@ -27,7 +27,7 @@ class Progress:
 
     @property
     def shown(self) -> bool:
-        """Whether the bar is on the terminal."""
+        """True while the bar is on the terminal."""
         return self._bar is not None
 
     def _remove(self) -> None:

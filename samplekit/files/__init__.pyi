@@ -11,8 +11,8 @@ from ._images.rendering import write_rendering as write_rendering
 from ._pointsets.csv import csv_text as csv_text
 from ._pointsets.read import read_points as read_points
 from ._pointsets.write import write_points as write_points
-from ._verified import text_writer as text_writer
 from ._writing import Writer as Writer
 from ._writing import check_targets as check_targets
 from ._writing import shown as shown
+from ._writing import text_writer as text_writer
 from ._writing import write_group as write_group

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import contextlib
 import errno
+import hashlib
 import os
 import secrets
 import shutil
 import stat
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
 from samplekit._errors import SamplekitError, UsageError
@@ -153,3 +154,25 @@ def _is_full(folder: Path) -> bool:
         return shutil.disk_usage(folder).free < _FULL
     except OSError:
         return False
+
+
+def text_writer(pieces: Iterable[str]) -> Writer:
+    """Make a writer of text as UTF-8 with the line ends it has, on every system; the pieces are taken one at a time."""
+    return data_writer(piece.encode() for piece in pieces)
+
+
+def data_writer(pieces: Iterable[bytes]) -> Writer:
+    """Make a writer of bytes; the pieces are taken one at a time."""
+
+    def write(temporary: Path) -> None:
+        written = hashlib.sha256()
+        with temporary.open("wb") as file:
+            for piece in pieces:
+                written.update(piece)
+                file.write(piece)
+        with temporary.open("rb") as file:
+            stored = hashlib.file_digest(file, "sha256")
+        if stored.digest() != written.digest():
+            raise SamplekitError("what was read back is not what was written")
+
+    return write

@@ -61,10 +61,10 @@ from ._permutation import scatter as scatter
 from ._permutation import shuffle as shuffle
 from ._radical_inverse import largest_power as largest_power
 from ._radical_inverse import primes as primes
-from ._row_sums import row_sums as row_sums
 from ._stratification import cell_along_axis as cell_along_axis
 from ._stratification import offset_bits as offset_bits
 from ._stratification import place_in_cell as place_in_cell
 from ._sums import BLOCK as BLOCK
 from ._sums import PairwiseSum as PairwiseSum
 from ._sums import lane_sum as lane_sum
+from ._sums import row_sums as row_sums

@@ -49,7 +49,7 @@ def shift_key(key: np.uint64, dimension: int) -> np.uint64:
 
 @helper
 def shift_numerator(key: np.uint64, power: int) -> int:
-    """What all places together add to a point of zeros: a uniform integer below ``power``."""
+    """Return the shift of all digits together as a uniform integer below ``power``."""
     return int(unit(key) * np.float64(power))
 
 

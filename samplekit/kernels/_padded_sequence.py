@@ -30,7 +30,7 @@ GROUP_SIZE = 1 << _GROUP
 
 
 def group_tables(columns: NDArray[np.uint32]) -> NDArray[np.uint32]:
-    """What each group of 11 bits of the index adds to each coordinate, uint32[D, 3, 2048], digit 1 in bit 0.
+    """Return the digits that each group of 11 bits of the index adds, uint32[D, 3, 2048], with digit 1 in bit 0.
 
     ``columns`` uint32[D, 32]: as :func:`samplekit.kernels._digital_net.net_coordinates` takes them.
     """

@@ -15,6 +15,8 @@ from numba.core import cgutils
 from numba.core import types as numba_types
 from numba.extending import intrinsic, overload
 
+from samplekit.kernels._compile import kernel
+
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
@@ -86,6 +88,13 @@ def _lane_sum_in_kernels(values, count):  # type: ignore[no-untyped-def]
     return lane_sum_in_kernels
 
 
+@kernel("void(float64[:,::1], float64[::1])")
+def row_sums(values: NDArray[np.float64], out: NDArray[np.float64]) -> None:
+    """Write the sum of each row of ``values`` float64[P, n], n <= 1024, into ``out`` float64[P]."""
+    for row in range(values.shape[0]):
+        out[row] = lane_sum(values[row], values.shape[1])
+
+
 class PairwiseSum:
     """Sums of many rows at once, block after block, combined pairwise.
 
@@ -97,7 +106,7 @@ class PairwiseSum:
 
     @classmethod
     def of_equal(cls, block_sums: NDArray[np.float64], number: int) -> PairwiseSum:
-        """What ``number`` blocks of the same sums float64[P] add up to, in the time of log2(number) additions."""
+        """Add ``number`` blocks of the same sums float64[P], in the time of log2(number) additions."""
         made, power = cls(), block_sums.copy()
         for level in range(number.bit_length()):
             power = power + power if level else power

@@ -1,4 +1,4 @@
-"""What all displays have in common."""
+"""The parts that all displays share."""
 
 from __future__ import annotations
 

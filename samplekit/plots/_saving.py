@@ -10,8 +10,7 @@ import numpy as np
 
 from samplekit._errors import UsageError
 from samplekit.files._images.metadata import encode
-from samplekit.files._verified import data_writer
-from samplekit.files._writing import write_group
+from samplekit.files._writing import data_writer, write_group
 from samplekit.plots._style import style
 
 if TYPE_CHECKING:

@@ -1,4 +1,4 @@
-"""Means over pixels that took long are kept: see :mod:`samplekit.files._cache`."""
+"""Keep means over pixels that took long in the cache folder: see :func:`samplekit.files.cached_array`."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 _QUICK = 2**13
-"""Pixels that take less than a second."""
+"""Number of pixels that take less than a second."""
 
 
 def kept_means(
@@ -34,15 +34,15 @@ def kept_means(
     orders: tuple[int, int] = (3, 5),
     tolerance: float = 1e-6,
 ) -> Array:
-    """As :func:`samplekit.quadrature._pixel_means.pixel_means`, from the cache if they are there and many.
+    """Return the means of :func:`pixel_means`, from the cache if there are many and they are there.
 
     Parameters
     ----------
     parameters, sources
-        All that the function depends on: what it was set up with, and the files that hold its code. The first file's
-        name is part of the kept file's.
+        Everything that the function depends on: its parameters, and the files that hold its code. The name of the
+        first file is part of the name of the kept file.
     function, x_edges, y_edges, known, curves, largest, orders, tolerance
-        As there.
+        As for :func:`pixel_means`.
     """
 
     def make() -> Array:

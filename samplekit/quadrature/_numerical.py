@@ -25,11 +25,11 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 TOLERANCE = 1e-6
-"""What the adaptive rule aims at in each pixel. Pixels with an edge use up all evaluations before."""
+"""Error that the adaptive rule aims at in each pixel. Pixels with an edge use up all evaluations before."""
 EVALUATIONS = 2**25
-"""Values that a reference may take in two dimensions: some seconds."""
+"""Most evaluations of a reference in two dimensions: they take some seconds."""
 MORE_EVALUATIONS = 2**26
-"""The same in more than two."""
+"""Most evaluations in more than two dimensions."""
 _ORDERS = (16, 12, 8, 6, 5, 4, 3)
 _LEAST_PER_PIXEL = 13
 _LARGEST_CELL = 1.0 / 64.0

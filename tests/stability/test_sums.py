@@ -10,8 +10,7 @@ import samplekit
 from samplekit._bases.realizations import Realizations
 from samplekit._integrate.loop import integrate, mean_of_constant, unit_square
 from samplekit._stability.extended import ExtendedSums
-from samplekit.kernels._row_sums import row_sums
-from samplekit.kernels._sums import BLOCK, PairwiseSum
+from samplekit.kernels._sums import BLOCK, PairwiseSum, row_sums
 
 ROUNDOFF = Fraction(1, 2**53)
 IN_A_BLOCK = 27

@@ -28,7 +28,7 @@ Window = tuple[int, int, int, int]
 
 
 class Contents(NamedTuple):
-    """What an EXR file holds: arrays by part name, metadata, and the window."""
+    """The contents of an EXR file: arrays by part name, metadata, and the window."""
 
     parts: dict[str, NDArray[np.float64]]
     metadata: dict[str, Any]

@@ -20,7 +20,7 @@ _INK = (0.9, 0.9, 0.9)
 
 
 class Facts(NamedTuple):
-    """What the strip states.
+    """The facts that the strip states.
 
     ``scale`` is the error at the ends of the bar (0: no bar), ``largest`` the largest |error|, ``beyond`` and
     ``invalid`` the numbers of pixels past the scale and not finite, ``enlarged`` the side in pixels of one pixel of

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 class Grid(NamedTuple):
-    """What is promised of a projection: every cell, and every interval, holds as many points as any other.
+    """The cells and intervals of a projection that are promised to hold as many points as each other.
 
     Attributes
     ----------

@@ -86,7 +86,7 @@ def _writer(ending: str, points: NDArray[np.float64], progress: Callable[[int, i
         from samplekit.files._pointsets.utk_binary import utk_binary_writer
 
         return utk_binary_writer(points)
-    from samplekit.files._verified import text_writer
+    from samplekit.files._writing import text_writer
 
     if ending == ".dat":
         from samplekit.files._pointsets.utk_text import utk_text

@@ -3,7 +3,7 @@ import hashlib
 import pytest
 
 from samplekit._errors import SamplekitError
-from samplekit.files._verified import text_writer
+from samplekit.files._writing import text_writer
 
 
 def test_text_keeps_its_line_ends(tmp_path):
