@@ -20,7 +20,6 @@ from samplekit._specs.promise import (
     OrthogonalArray,
     Promise,
     Strata,
-    Violation,
 )
 from samplekit._specs.randomizer import RandomizerSpec
 from samplekit._specs.sampler import SamplerSpec
@@ -55,6 +54,5 @@ __all__ = [
     "SceneSpec",
     "Spec",
     "Strata",
-    "Violation",
     "written",
 ]

@@ -115,7 +115,6 @@ class Declaration:
             raise UsageError(f"{self.name}: {error}") from None
 
 
-@dataclass(frozen=True)
 class CommandSpec(Declaration):
     """What a command declares: ``target`` names a function that typer can turn into a command.
 
