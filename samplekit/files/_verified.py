@@ -1,4 +1,4 @@
-"""Write text or bytes and read them back: the writers that `samplekit.files._writing.write_group` takes."""
+"""Write text or bytes and read them back: the writers that `samplekit.files.write_group` takes."""
 
 from __future__ import annotations
 

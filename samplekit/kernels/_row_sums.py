@@ -1,4 +1,4 @@
-"""Sums of the rows of a matrix, in the fixed order of :func:`samplekit.kernels._sums.lane_sum`."""
+"""Sums of the rows of a matrix, in the fixed order of :func:`samplekit.kernels.lane_sum`."""
 
 from __future__ import annotations
 

@@ -34,7 +34,7 @@ def kept_means(
     orders: tuple[int, int] = (3, 5),
     tolerance: float = 1e-6,
 ) -> Array:
-    """As :func:`samplekit.quadrature._pixel_means.pixel_means`, from the cache if they are there and many.
+    """As :func:`samplekit.quadrature.pixel_means`, from the cache if they are there and many.
 
     Parameters
     ----------
