@@ -8,7 +8,7 @@ import pytest
 import samplekit
 from samplekit import Option, SceneSpec
 from samplekit._bases.reference import Reference
-from samplekit._stability.cell import measure
+from samplekit._stability.measurement import measure
 from samplekit._stability.sweep import precision_lost_beyond, scenes_of, sweep
 from samplekit._stability.verdict import judge
 

@@ -1,4 +1,4 @@
-"""A sweep for people and for programs: a table of text, CSV, JSON, and the files of a folder."""
+"""A sweep as a table of text, as CSV, as JSON, and as files in a folder."""
 
 from __future__ import annotations
 
@@ -33,9 +33,9 @@ _NUMBERS = (
 
 
 def as_record(cell: Cell) -> dict[str, Any]:
-    """A cell as JSON has it: numbers that are not finite are null."""
+    """Return a cell as plain data for JSON; numbers that are not finite are None."""
     record: dict[str, Any] = {
-        "scene": f"{cell.name}:{cell.extreme}" if cell.extreme else cell.name,
+        "scene": _scene_text(cell.name, cell.extreme),
         "sampler": cell.sampler,
         "count": cell.count,
         "verdict": cell.verdict.kind,
@@ -49,8 +49,12 @@ def as_record(cell: Cell) -> dict[str, Any]:
     return record
 
 
+def _scene_text(name: str, extreme: str) -> str:
+    return f"{name}:{extreme}" if extreme else name
+
+
 def as_json(sweep: Stability) -> dict[str, Any]:
-    """Return the whole sweep as JSON has it."""
+    """Return a sweep as plain data for JSON."""
     cells, lost = sweep.cells, precision_lost_beyond(sweep.cells)
     return {
         "schema": SCHEMA,
@@ -58,7 +62,7 @@ def as_json(sweep: Stability) -> dict[str, Any]:
         "seed": sweep.seed,
         "verdicts": _tally(cells),
         "precision_lost_beyond": [
-            {"scene": f"{name}:{extreme}" if extreme else name, "sampler": sampler, "count": count}
+            {"scene": _scene_text(name, extreme), "sampler": sampler, "count": count}
             for (name, extreme, sampler), count in lost.items()
         ],
         "cells": [as_record(cell) for cell in cells],
@@ -67,11 +71,12 @@ def as_json(sweep: Stability) -> dict[str, Any]:
 
 
 def _tally(cells: Sequence[Cell]) -> dict[str, int]:
+    """Count the cells of each kind."""
     return {kind: sum(cell.verdict.kind == kind for cell in cells) for kind in MEANINGS}
 
 
 def table(cells: Sequence[Cell]) -> Iterator[str]:
-    """Lines of text: a block for each scene and sampler, a row for each extreme, a column for each count."""
+    """Yield lines of text: a block for each scene and sampler, a row for each extreme, a column for each count."""
     counts = sorted({cell.count for cell in cells})
     lost = precision_lost_beyond(cells)
     for name in dict.fromkeys(cell.name for cell in cells):
@@ -103,7 +108,7 @@ def _words(cell: Cell) -> str:
 
 
 def csv_lines(cells: Sequence[Cell]) -> Iterator[str]:
-    """The cells as CSV, one a line, numbers with all their digits."""
+    """Yield the cells as CSV: a header, then a line for each cell, numbers with all their digits."""
     import csv
     import io
 
@@ -114,19 +119,24 @@ def csv_lines(cells: Sequence[Cell]) -> Iterator[str]:
         yield line.getvalue()
 
 
-def _file(name: str) -> str:
-    return name.replace("/", "-")
-
-
 def write(folder: Path, sweep: Stability) -> list[Path]:
-    """Write the table and a heat map for each scene, all of them or none.
+    """Write the cells as CSV and a heat map for each scene, all files or none.
+
+    Parameters
+    ----------
+    folder, sweep
+        An existing folder, and what is written there.
+
+    Returns
+    -------
+    The paths of the files.
 
     Raises
     ------
     UsageError
         The folder cannot be written to.
     SamplekitError
-        The writing failed.
+        A file cannot be written.
     """
     from samplekit._provenance import versions
     from samplekit.files import text_writer, write_group
@@ -137,6 +147,6 @@ def write(folder: Path, sweep: Stability) -> list[Path]:
     items = [(folder / "stability.csv", text_writer(list(csv_lines(cells))))]
     for name in dict.fromkeys(cell.name for cell in cells):
         facts = {**metadata, "scene": name, "cells": [as_record(cell) for cell in cells if cell.name == name]}
-        items.append((folder / f"{_file(name)}.png", figure_writer(sweep.plot(name).figure_, ".png", facts)))
+        items.append((folder / f"{name.replace('/', '-')}.png", figure_writer(sweep.plot(name).figure_, ".png", facts)))
     write_group(items)
     return [path for path, _ in items]

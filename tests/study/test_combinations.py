@@ -5,13 +5,13 @@ import pytest
 
 import samplekit
 from samplekit._errors import UsageError
-from samplekit._study.cells import lay_out
+from samplekit._study.combinations import list_combinations
 from samplekit._study.request import checked_request
-from samplekit._study.subjects import Subjects
+from samplekit._study.resources import Resources
 
 
 def cells_of(samplers, counts, *, scenes=("disk",), trials=8, size=(1, 1)):
-    return lay_out(checked_request(scenes, samplers, counts, trials, size, 0), Subjects())
+    return list_combinations(checked_request(scenes, samplers, counts, trials, size, 0), Resources())
 
 
 def test_counts_are_replaced_by_the_nearest_below():
