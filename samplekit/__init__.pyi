@@ -56,7 +56,7 @@ from ._specs import SamplerSpec as SamplerSpec
 from ._specs import SceneSpec as SceneSpec
 from ._specs import Violation as Violation
 from ._specs.counts import grid_sides as grid_sides
-from ._stability.sweep import Stability as Stability
+from ._stability.results import Stability as Stability
 from ._stability.sweep import stability as stability
 from ._study.results import Results as Results
 from ._threads import check_threads as check_threads

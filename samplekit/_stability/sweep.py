@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,6 +14,7 @@ from samplekit._configured.scene import scene as configured_scene
 from samplekit._errors import UsageError
 from samplekit._registry import registry
 from samplekit._stability.measurement import Measurement, measure
+from samplekit._stability.results import Cell, Stability, scene_text
 from samplekit._stability.verdict import Verdict, judge
 
 if TYPE_CHECKING:
@@ -23,128 +23,10 @@ if TYPE_CHECKING:
     from samplekit._bases.reference import Reference
     from samplekit._configured.sampler import ConfiguredSampler
     from samplekit._configured.scene import ConfiguredScene
-    from samplekit.plots import StabilityDisplay
 
 SAMPLERS = ("random", "jittered", "correlated-multi-jittered", "halton+owen", "sobol+owen")
 COUNTS = (2**4, 2**8, 2**12, 2**16)
 REALIZATIONS = 32
-
-
-@dataclass(frozen=True)
-class Cell:
-    """A scene, a sampler and a count, with their measurement and verdict.
-
-    Attributes
-    ----------
-    name, extreme
-        Name and options of the scene, such as ``gaussian`` and ``sigma=1e-12``.
-    sampler, count
-        Text of the sampler, and the number of samples of an estimate.
-    measured
-        The measurement; None if the sampler cannot make such sets.
-    verdict
-        The kind of the cell, and the reason.
-    repeated
-        Whether a first measurement was beyond 4 standard errors, and this is a second one with another seed.
-    """
-
-    name: str
-    extreme: str
-    sampler: str
-    count: int
-    measured: Measurement | None
-    verdict: Verdict
-    repeated: bool = False
-
-
-@dataclass(frozen=True)
-class Stability:
-    """A sweep of scenes from mild to stiff.
-
-    Attributes
-    ----------
-    cells
-        A :class:`Cell` for each scene, sampler and count.
-    realizations, seed
-        Number of independent estimates of each cell, and their seed.
-    files
-        Paths of the files that were written.
-
-    Examples
-    --------
-    >>> import samplekit
-    >>> sweep = samplekit.stability("disk:radius=0.3", "jittered", [16, 64])
-    >>> [cell.verdict.kind for cell in sweep.cells]
-    ['right', 'right']
-    """
-
-    cells: list[Cell]
-    realizations: int
-    seed: int
-    files: tuple[Path, ...] = ()
-
-    @property
-    def wrong(self) -> list[Cell]:
-        """The cells whose estimates are wrong without an explanation."""
-        return [cell for cell in self.cells if cell.verdict.kind == "wrong"]
-
-    def as_json(self) -> dict[str, Any]:
-        """Return the object that ``samplekit stability --json`` prints."""
-        from samplekit._stability.outputs import as_json
-
-        return as_json(self)
-
-    def table(self) -> list[str]:
-        """Return the lines of text that ``samplekit stability`` prints."""
-        from samplekit._stability.outputs import table
-
-        return list(table(self.cells))
-
-    def plot(self, scene: str | None = None, *, axes: Any = None) -> StabilityDisplay:
-        """Draw the correct digits, and the digits that summation lost, as heat maps.
-
-        Parameters
-        ----------
-        scene
-            Name of the scene; None: the only one.
-        axes
-            The axes of matplotlib to draw on: two for each sampler, the upper row first; None: a new figure.
-
-        Returns
-        -------
-        samplekit.plots.StabilityDisplay
-
-        Raises
-        ------
-        UsageError
-            The scene is not in the sweep, or none is given and there are several; the number of axes is wrong.
-        """
-        from samplekit.plots import StabilityDisplay
-
-        return StabilityDisplay(self, scene).plot(axes)
-
-    def save(self, folder: str | os.PathLike[str]) -> Stability:
-        """Write ``stability.csv`` and a heat map for each scene, all of them or none.
-
-        Parameters
-        ----------
-        folder
-            An existing folder.
-
-        Returns
-        -------
-        The sweep with its ``files``.
-
-        Raises
-        ------
-        UsageError
-            The folder cannot be written to.
-        SamplekitError
-            A file cannot be written.
-        """
-        from samplekit._stability.outputs import write
-
-        return replace(self, files=tuple(write(Path(folder), self)))
 
 
 def scenes_of(texts: Sequence[str]) -> list[tuple[str, str]]:
@@ -243,7 +125,7 @@ def sweep(
     cells = []
     edges = np.array([0.0, 1.0])
     for name, extreme in scenes:
-        scene = configured_scene(f"{name}:{extreme}" if extreme else name)
+        scene = configured_scene(scene_text(name, extreme))
         reference = scene.reference(edges, edges)
         for sampler in configured:
             for count in counts:
@@ -276,26 +158,3 @@ def _measure_and_judge(
     except UsageError as error:
         return None, Verdict("refused", str(error)), False
     return measured, verdict, repeated
-
-
-def precision_lost_beyond(cells: Sequence[Cell]) -> dict[tuple[str, str, str], int]:
-    """Return the largest count before rounding exceeds the error of sampling.
-
-    Parameters
-    ----------
-    cells
-        The cells of a sweep.
-
-    Returns
-    -------
-    The count for each (name, extreme, sampler) that loses precision; 0 if all of its counts lose it.
-    """
-    rows: dict[tuple[str, str, str], list[Cell]] = {}
-    for cell in cells:
-        rows.setdefault((cell.name, cell.extreme, cell.sampler), []).append(cell)
-    beyond = {}
-    for row, of_row in rows.items():
-        lost = [cell.count for cell in of_row if cell.verdict.kind == "precision lost"]
-        if lost:
-            beyond[row] = max((cell.count for cell in of_row if cell.count < min(lost)), default=0)
-    return beyond

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from samplekit._bases.realizations import check_seed
 from samplekit._checks import check_positive, check_samples
@@ -50,10 +50,6 @@ class Request:
     def one_pixel(self) -> bool:
         """Whether the unit square is one pixel."""
         return self.size == UNIT_SQUARE
-
-    def plain(self) -> dict[str, Any]:
-        """Return the request with lists in place of tuples, as JSON reads it back."""
-        return {name: list(value) if isinstance(value, tuple) else value for name, value in asdict(self).items()}
 
     def command(self, *more: str) -> str:
         """Return the command that makes the study, followed by the options ``more``."""

@@ -369,6 +369,10 @@ class Results:
     plots: list[str] = field(default_factory=list)
     crossings: list[Crossing] = field(default_factory=list)
 
+    def as_json(self) -> dict[str, Any]:
+        """Return the object that ``samplekit compare --json`` prints; the seed has 64 bits and is a text."""
+        return {"schema": SCHEMA, "level": LEVEL, **asdict(self), "seed": str(self.seed)}
+
     def plot(
         self, scene: str | None = None, *, against: Literal["samples", "time"] = "samples", ax: Axes | None = None
     ) -> StudyDisplay:
@@ -398,10 +402,8 @@ class Results:
 
 
 def to_json(results: Results) -> str:
-    """Return the results as one JSON object without NaN and infinity. The seed has 64 bits and is written as text."""
-    plain: dict[str, Any] = {"schema": SCHEMA, "level": LEVEL, **asdict(results)}
-    plain["seed"] = str(results.seed)
-    return json.dumps(plain, allow_nan=False, indent=1)
+    """Return the text of ``results.json``: one JSON object without NaN and infinity."""
+    return json.dumps(results.as_json(), allow_nan=False, indent=1)
 
 
 def from_json(text: str) -> Results:

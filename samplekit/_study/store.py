@@ -92,13 +92,14 @@ class Store:
         UsageError
             The file has another format, or belongs to another study.
         """
+        request_text = json.dumps(request)
         with self._one_line_errors():
             tables = {name for (name,) in self._database.execute("SELECT name FROM sqlite_master")}
             if not tables:
                 with self._transaction():
                     for table in _TABLES.split(";"):
                         self._database.execute(table)
-                    self._insert("INSERT INTO study", (FORMAT, json.dumps(request), json.dumps(versions)))
+                    self._insert("INSERT INTO study", (FORMAT, request_text, json.dumps(versions)))
                 return
             found = self._database.execute("SELECT format FROM study").fetchone() if "study" in tables else None
             if found is None or found[0] != FORMAT:
@@ -107,7 +108,7 @@ class Store:
                     f" {FORMAT}: finish it with the samplekit that began it, or choose another folder"
                 )
             ((_, kept_request, kept_versions),) = self._select("study")
-        self._compare(json.loads(kept_request), request, json.loads(kept_versions), versions)
+        self._compare(json.loads(kept_request), json.loads(request_text), json.loads(kept_versions), versions)
 
     def _compare(
         self,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import threading
 import time
-from dataclasses import replace
+from dataclasses import asdict, replace
 from typing import TYPE_CHECKING
 
 from samplekit._errors import UsageError
@@ -80,7 +80,7 @@ class Study:
         self._store = Store(folder)
         self._cluster: Cluster | None = None
         try:
-            self._store.begin(request.plain(), self._versions)
+            self._store.begin(asdict(request), self._versions)
             self._cluster = Cluster(options.dask) if options.dask is not None else None
         except BaseException:
             self.close()

@@ -9,7 +9,8 @@ import samplekit
 from samplekit import Option, SceneSpec
 from samplekit._bases.reference import Reference
 from samplekit._stability.measurement import measure
-from samplekit._stability.sweep import precision_lost_beyond, scenes_of, sweep
+from samplekit._stability.results import precision_lost_beyond
+from samplekit._stability.sweep import scenes_of, sweep
 from samplekit._stability.verdict import judge
 
 EDGES = np.array([0.0, 1.0])

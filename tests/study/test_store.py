@@ -1,7 +1,7 @@
 """The store: what is kept is kept, and nothing that does not belong is taken for it."""
 
 import sqlite3
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
@@ -29,7 +29,7 @@ def opened(tmp_path):
         store = Store(tmp_path)
         stores.append(store)
         try:
-            store.begin(request.plain(), versions)
+            store.begin(asdict(request), versions)
         except UsageError:
             store.close()
             raise
