@@ -26,7 +26,7 @@ def stability(
         typer.Option(
             "--scene",
             metavar="NAME[:OPTION=VALUE,...]",
-            help="A scene; may be repeated. A name alone: all the extremes that the scene declares. By default all scenes.",
+            help="A scene; may be repeated. A name alone: all extremes that it declares. By default all scenes.",
             autocompletion=complete_scene,
         ),
     ] = None,

@@ -4,17 +4,23 @@ from __future__ import annotations
 
 import csv
 import io
+import itertools
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
+from samplekit._study.results import Interval
+
 if TYPE_CHECKING:
-    from samplekit._study.results import Interval, Results, Row, Seconds, Spread
+    from samplekit._study.results import Results, Row
 
 _INTERVALS = ("mse", "rmse", "bias", "variance", "squared_bias", "blurred_mse", "efficiency", "ratio")
-_PARTS = ("points", "scene", "total")
+_SECONDS = itertools.product(("points", "scene", "total"), ("cpu", "wall"), ("median", "lower", "upper"))
+_TIMES = (*map(".".join, _SECONDS), "setup_cpu", "setup_wall", "laps")
+"""Attributes of the times of a row."""
 
 
 def csv_text(results: Results) -> str:
-    """Return the rows of a study as CSV, with a header."""
+    """Return the rows of a study as CSV, with a header; numbers have all their digits."""
     out = io.StringIO()
     lines = [_line(row) for row in results.rows]
     writer = csv.DictWriter(out, list(lines[0]) if lines else [], lineterminator="\n")
@@ -34,27 +40,13 @@ def _line(row: Row) -> dict[str, object]:
         "trials": row.trials,
     }
     for name in _INTERVALS:
-        interval: Interval | None = getattr(row, name)
-        line[name] = _shortest(None if interval is None else interval.estimate)
-        line[f"{name}_low"] = _shortest(None if interval is None else interval.low)
-        line[f"{name}_high"] = _shortest(None if interval is None else interval.high)
-    line["time"] = _shortest(row.time)
-    for name in _PARTS:
-        seconds: Seconds | None = None if row.times is None else getattr(row.times, name)
-        for kind in ("cpu", "wall"):
-            spread: Spread | None = None if seconds is None else getattr(seconds, kind)
-            for place in ("median", "lower", "upper"):
-                line[f"{name}_{kind}_{place}"] = _shortest(None if spread is None else getattr(spread, place))
-    line["setup_cpu"] = _shortest(None if row.times is None else row.times.setup_cpu)
-    line["setup_wall"] = _shortest(None if row.times is None else row.times.setup_wall)
-    line["laps"] = row.times.laps if row.times else ""
-    line["reference_error"] = _shortest(row.reference_error)
+        interval = getattr(row, name) or Interval(None)
+        line |= {name: interval.estimate, f"{name}_low": interval.low, f"{name}_high": interval.high}
+    line["time"] = row.time
+    for name in _TIMES:
+        line[name.replace(".", "_")] = None if row.times is None else attrgetter(name)(row.times)
+    line["reference_error"] = float(row.reference_error)
     line["invalid_pixels"] = row.invalid_pixels
     line["fitted"] = int(row.fitted)
     line["notes"] = "; ".join([*([row.replaced] if row.replaced else []), *row.notes])
     return line
-
-
-def _shortest(value: float | None) -> str:
-    """Return the shortest text that reads back as the same number; empty for None."""
-    return "" if value is None else repr(float(value))

@@ -1,4 +1,4 @@
-"""The sweep: verdicts that say what is so, and none that call a miss a success."""
+"""The sweep: verdicts are true, and an estimate that missed everything is not called right."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Intervals: they cover the truth as often as they say, and say so where there is none."""
+"""Intervals: they cover the truth as often as they state, and are missing where nothing tells one."""
 
 import math
 

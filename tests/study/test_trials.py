@@ -1,4 +1,4 @@
-"""Jobs: what a trial gives depends on nothing but the trial; progressive sets are drawn once."""
+"""Jobs and trials: a trial depends on nothing else, and the prefixes of a progressive set share one draw."""
 
 import numpy as np
 import pytest
@@ -105,8 +105,8 @@ def test_jobs_fill_the_gaps_and_no_more():
 
 def test_jobs_share_out_what_is_missing():
     request = checked_request(["disk"], ["random", "sobol"], [4, 8], 100, (1, 1), 0)
-    cells, _ = list_combinations(request, Resources())
-    random = [cell for cell in cells if cell.sampler == "random"]
+    combinations, _ = list_combinations(request, Resources())
+    random = [combination for combination in combinations if combination.sampler == "random"]
     jobs = split(request, random, lambda _: [(0, 30), (40, 100)], dict.fromkeys(random, 0.03), 2)
     assert {job.counts for job in jobs} == {(4, 8)}
     trials = sorted((job.first, job.last) for job in jobs)

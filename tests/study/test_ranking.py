@@ -1,4 +1,4 @@
-"""Answers: targets, the front, flips by cost and crossings, against what can be worked out by hand."""
+"""Targets, the best choices, flips by cost, crossings and sentences, against values that were worked out by hand."""
 
 from dataclasses import replace
 from itertools import pairwise
