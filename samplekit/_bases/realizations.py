@@ -17,7 +17,7 @@ LARGEST_COORDINATE = 2**32 - 1
 
 
 def _mix64(x: NDArray[np.uint64]) -> NDArray[np.uint64]:
-    """The bijection of :func:`samplekit.kernels._hashing.mix64` on whole arrays, without importing numba."""
+    """The bijection of :func:`samplekit.kernels.mix64` on whole arrays, without importing numba."""
     x = (x ^ (x >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
     x = (x ^ (x >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
     return x ^ (x >> np.uint64(31))
