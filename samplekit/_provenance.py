@@ -21,7 +21,14 @@ _library_version = cache(version)
 
 
 def versions() -> dict[str, str]:
-    """Return the versions of samplekit, of Python and of the libraries that numbers depend on."""
+    """Return the versions of samplekit, of Python and of the libraries that numbers depend on.
+
+    Examples
+    --------
+    >>> import samplekit
+    >>> sorted(samplekit.versions())
+    ['OpenImageIO', 'numba', 'numpy', 'python', 'samplekit', 'scipy']
+    """
     from samplekit import __version__
 
     libraries = {name: _library_version(name) for name in _LIBRARIES}
