@@ -9,7 +9,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from samplekit._report import wording, write_report
+from samplekit._report import wording
+from samplekit._report.page import write_report
 from samplekit._study.results import Interval
 from samplekit.files._images.exr import read_parts
 

@@ -1,4 +1,4 @@
-"""Whole studies through the public door: the course's exponents, and the same errors however they are computed."""
+"""Whole studies by ``samplekit.compare``: known exponents, and the same errors however they are computed."""
 
 import csv
 import json

@@ -40,17 +40,18 @@ def test_blue_noise_is_predicted_from_fresh_sets(sampler, count):
     assert (row.measured.trials, row.native.trials) == (2000, 50)
 
 
+class Grids(Sampler):
+    """Grids under a shift of each realisation."""
+
+    def draw(self, count, dims, rng):
+        side = math.isqrt(count)
+        x, y = np.meshgrid(np.arange(side), np.arange(side))
+        return (np.stack([x.ravel(), y.ravel()], axis=1) + rng.random(2)) / side
+
+
 def test_a_centre_as_dark_as_it_may_be_is_not_left_out():
-    """Grids of 16 x 16 under a shift of each realisation: all below 16 is 0, and the rest is the shifted grid's."""
-
-    class Grids(Sampler):
-        def draw(self, count, dims, rng):
-            side = math.isqrt(count)
-            x, y = np.meshgrid(np.arange(side), np.arange(side))
-            return (np.stack([x.ravel(), y.ravel()], axis=1) + rng.random(2)) / side
-
-    grids = samplekit.sampler("multi-jittered")
-    grids._sampler = Grids()
+    """Grids of 16 x 16: all below 16 is 0, and the rest is the shifted grid's."""
+    grids = samplekit.sampler(samplekit.SamplerSpec("grids", f"{__name__}:Grids", "shifted grids", dimensions=(2, 2)))
     row = predict(grids, "disk", 256, trials=2000, realizations=32, native=False)
     exact = predict("regular", "disk", 256, trials=4, native=False).predicted.variance
     assert 0.85 < row.ratio < 1.15
