@@ -57,7 +57,7 @@ SAMPLERS = (
     ),
     SamplerSpec(
         "uncorrelated-jitter",
-        _SAMPLERS + "uncorrelated_jitter:UncorrelatedJitter",
+        _SAMPLERS + "grid:UncorrelatedJitter",
         "jittered pairs of dimensions (pixel, lens, ...) in random order",
         reference="Cook, Porter, Carpenter 1984",
         counts=Products(2),
