@@ -1,1 +1,1 @@
-"""Declarations of what comes with samplekit, by kind."""
+"""What comes with samplekit, declared without importing it: a file for each kind."""

@@ -1,4 +1,4 @@
-"""The samplers that come with samplekit: what each says of itself, without importing it."""
+"""The samplers that come with samplekit: what each declares, without importing it."""
 
 from __future__ import annotations
 
@@ -19,9 +19,10 @@ _SAMPLERS = "samplekit._builtin.samplers."
 
 
 def _sobol_nets(first: int) -> tuple[Net, ...]:
-    """The nets of a block of Sobol's first four dimensions: t is the sum of the polynomials' degrees less one each.
+    """Return the nets of dimensions ``first`` to ``first + 3`` where these are Sobol's first four (Sobol' 1967).
 
-    Sobol' 1967. Of any one dimension t is 0.
+    The quality t of a projection is the sum of degree - 1 over the polynomials of its dimensions; one dimension alone
+    has t = 0.
     """
     quality = {(0, 1): 0, (0, 2): 1, (1, 2): 1, (0, 3): 2, (1, 3): 2, (2, 3): 3, (0, 1, 2): 1, (0, 1, 2, 3): 3}
     quality |= {(2,): 0, (3,): 0}
@@ -56,7 +57,7 @@ SAMPLERS = (
     ),
     SamplerSpec(
         "uncorrelated-jitter",
-        _SAMPLERS + "uncorrelated_jitter:UncorrelatedJitter",
+        _SAMPLERS + "grid:UncorrelatedJitter",
         "jittered pairs of dimensions (pixel, lens, ...) in random order",
         reference="Cook, Porter, Carpenter 1984",
         counts=Products(2),
@@ -180,7 +181,7 @@ SAMPLERS = (
         randomized=False,
         unbiased=False,
         largest_index=2**32 - 1,
-        # The same is true of each of the 4096 dimensions alone.
+        # Each of the 4096 dimensions alone is such a net; a few are enough to declare.
         promises=(*_sobol_nets(0), *(Net(dims=(d,)) for d in range(4, 8))),
     ),
     SamplerSpec(

@@ -1,1 +1,1 @@
-"""The randomizers that come with samplekit, apart from the sequences that they randomise."""
+"""Randomizers: they change the points of any sampler at random."""

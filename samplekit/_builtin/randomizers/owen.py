@@ -1,9 +1,8 @@
 """Owen's nested uniform scrambling, in the base of each dimension.
 
-Owen 1995, "Randomly permuted (t,m,s)-nets and (t,s)-sequences". In base 2 the digits are flipped by a hash of those
-before them (:mod:`samplekit.kernels._owen`), in another base they are permuted node by node
-(:mod:`samplekit.kernels._nested_digits`). In a composite base, where multiplying by a random factor is no permutation,
-each node shuffles its digits.
+Owen 1995, "Randomly permuted (t,m,s)-nets and (t,s)-sequences". In base 2 each digit is flipped by a hash of the digits
+before it. In a prime base the digits at each node of the tree of digits are multiplied by a random factor and moved by
+a random digit. In a composite base, where multiplying by a factor may be no permutation, each node shuffles its digits.
 """
 
 from __future__ import annotations
@@ -65,7 +64,7 @@ def _scramble_binary(row: NDArray[np.float64], key: np.uint64) -> None:
 def _scramble_digits(
     row: NDArray[np.float64], key: np.uint64, base: int, power: int, is_prime: bool, work: NDArray[np.float64]
 ) -> None:
-    """Scramble at most ``work.shape[1]`` coordinates; ``work`` float64[4, K] is room."""
+    """Scramble at most ``work.shape[1]`` coordinates; ``work`` float64[4, K] is workspace."""
     rest, scrambled, digits, nodes = work
     second = second_key(key)
     b = np.float64(base)
@@ -131,7 +130,7 @@ def _apply(
 
 
 class Owen(Randomizer):
-    """Random permutations of digits, each depending on all digits before it: nets stay nets, variance falls faster."""
+    """Permutes each digit at random, in a way that depends on all digits before it: nets stay nets."""
 
     def apply(self, points: NDArray[np.float64], realizations: Realizations, bases: tuple[int, ...]) -> None:
         """Scramble ``points`` in place; see :meth:`Randomizer.apply`."""

@@ -1,7 +1,7 @@
-"""Cranley-Patterson rotation: one random toroidal shift of the whole set, the course's homogenisation.
+"""Cranley-Patterson rotation: one random toroidal shift of the whole set, also called homogenisation.
 
 Cranley and Patterson 1976, "Randomization of number theoretic methods for multiple integration". Sums are rounded, so
-distances are kept to 2^-52.
+distances change by up to 2^-52.
 """
 
 from __future__ import annotations

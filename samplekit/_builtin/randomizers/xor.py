@@ -1,4 +1,4 @@
-"""Random digital shift: one random digit is added to each digit place, modulo the base (exclusive or in base 2).
+"""Random digital shift: one random digit is added at each place, modulo the base (an exclusive or in base 2).
 
 L'Ecuyer and Lemieux 2002, "Recent advances in randomized quasi-Monte Carlo methods", section 5; Kollig and Keller 2002.
 """
@@ -35,7 +35,7 @@ _CHUNK = 1024
 
 @helper
 def _shift_digits(row: NDArray[np.float64], key: np.uint64, base: int, power: int, work: NDArray[np.float64]) -> None:
-    """Shift at most ``work.shape[1]`` coordinates; ``work`` float64[2, K] is room."""
+    """Shift at most ``work.shape[1]`` coordinates; ``work`` float64[2, K] is workspace."""
     rest, shifted = work
     b = np.float64(base)
     per_base = 1.0 / b
@@ -83,7 +83,7 @@ def _apply(points: NDArray[np.float64], keys: NDArray[np.uint64], bases: NDArray
 
 
 class Xor(Randomizer):
-    """One random digit per place, dimension and realisation: nets stay nets."""
+    """Adds one random digit for each place, dimension and realisation: nets stay nets."""
 
     def apply(self, points: NDArray[np.float64], realizations: Realizations, bases: tuple[int, ...]) -> None:
         """Shift the digits of ``points`` in place; see :meth:`Randomizer.apply`."""

@@ -1,1 +1,1 @@
-"""The samplers that come with samplekit: a file a family."""
+"""Samplers: one file for each family."""

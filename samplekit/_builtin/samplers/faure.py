@@ -5,8 +5,8 @@ digits a_0, a_1, ... of the index in base b, digit j + 1 of dimension d is the s
 modulo b: the generator matrix is the d-th power of Pascal's. Indices start at 0; the first b points lie on the diagonal
 unless they are scrambled.
 
-The digits of i + j are those of i plus those of j, modulo b, where j is a multiple of a power of b that i is below: a
-table of the first points, whose first digits alone are not 0, and a few additions for each later one.
+Where j is a multiple of a power of b, and i is below that power, the digits of point i + j are those of point i plus
+those of point j, modulo b. So a table of the first points and a few additions give each later point.
 """
 
 from __future__ import annotations
@@ -19,24 +19,22 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit import Net, PowersOf, Sampler, UsageError
-from samplekit.kernels import kernel, largest_power, table_size
+from samplekit.kernels import kernel, largest_power, primes, table_size
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from samplekit import Realizations, SamplerSpec
 
-_NET_DIMS = 5
-"""Dimensions of the nets that are declared; those of all of them follow from t = 0."""
-
-
-def _is_prime(n: int) -> bool:
-    return all(n % divisor for divisor in range(2, n) if divisor * divisor <= n)
+_NET_DIMS = (2, 5)
+"""Dimensions of the nets that are declared; that of all dimensions has t = 0 as well."""
+_BASES = primes(172)
+"""The primes up to 1021."""
 
 
 @cache
-def generator_matrices(base: int, dims: int) -> NDArray[np.int64]:
-    """C(r, j) d^(r - j) modulo the base, int64[D, K, K]: digit j of a point from digit r of its index."""
+def _generator_matrices(base: int, dims: int) -> NDArray[np.int64]:
+    """Return C(r, j) d^(r - j) modulo the base, int64[D, K, K]: digit j of a point from digit r of its index."""
     places = 1
     while base ** (places + 1) <= 1 << 53:
         places += 1
@@ -118,19 +116,24 @@ class Faure(Sampler):
     Parameters
     ----------
     base
-        A prime: as many dimensions as there can be.
+        A prime up to 1021, and the largest number of dimensions.
+
+    Raises
+    ------
+    UsageError
+        The base is not a prime: names the nearest.
     """
 
     def __init__(self, base: int = 5) -> None:
-        if not _is_prime(base):
-            below = next(n for n in range(base, 1, -1) if _is_prime(n))
-            above = next(n for n in range(base, 2 * base) if _is_prime(n))
+        if base not in _BASES:
+            below = max(prime for prime in _BASES if prime < base)
+            above = min(prime for prime in _BASES if prime > base)
             raise UsageError(f"faure: option base={base}: expected a prime: the nearest are {below} and {above}")
         self.base = base
 
     def refine(self, spec: SamplerSpec) -> SamplerSpec:
-        """As many dimensions as the base, and nets in it."""
-        nets = {min(dims, self.base) for dims in (2, _NET_DIMS)}
+        """Declare as many dimensions as the base, and nets in the base."""
+        nets = {min(dims, self.base) for dims in _NET_DIMS}
         return replace(
             spec,
             dimensions=(1, self.base),
@@ -140,9 +143,9 @@ class Faure(Sampler):
 
     def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`Sampler.fill`."""
-        _fill(out, generator_matrices(self.base, out.shape[1]), self.base, start)
+        _fill(out, _generator_matrices(self.base, out.shape[1]), self.base, start)
         out[1:] = out[0]
 
     def bases(self, dims: int) -> tuple[int, ...]:
-        """The base, in all dimensions."""
+        """Return the base for each dimension."""
         return (self.base,) * dims

@@ -1,6 +1,7 @@
-"""Latin hypercube sampling: in every dimension one point in each of N equal intervals (McKay, Beckman, Conover 1979).
+"""Latin hypercube sampling: in every dimension one point in each of N equal intervals.
 
-In two dimensions it is N-rooks sampling (Shirley 1991, "Discrepancy as a quality measure for sample distributions").
+McKay, Beckman, Conover 1979, "A comparison of three methods for selecting values of input variables". In two dimensions
+it is N-rooks sampling (Shirley 1991, "Discrepancy as a quality measure for sample distributions").
 """
 
 from __future__ import annotations
@@ -60,7 +61,7 @@ def _fill(out: NDArray[np.float64], keys: NDArray[np.uint64], count: int, start:
 
 
 class LatinHypercube(Sampler):
-    """A random permutation of N jittered intervals in each dimension."""
+    """A random place in each of N intervals, in a random order of its own in each dimension."""
 
     def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`Sampler.fill`."""

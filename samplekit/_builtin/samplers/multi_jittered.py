@@ -1,8 +1,8 @@
 """Multi-jittered sampling: jittered in 2D and Latin in each dimension at once.
 
-``MultiJittered``: Chiu, Shirley, Wang 1994, "Multi-jittered sampling", Graphics Gems IV; every column and every row is
-shuffled on its own. ``CorrelatedMultiJittered``: Kensler 2013, "Correlated multi-jittered sampling", Pixar 13-01; one
-permutation for all columns and one for all rows, which takes the variance of smooth integrands from N^-2 to N^-3.
+Chiu, Shirley, Wang 1994, "Multi-jittered sampling", Graphics Gems IV, shuffle every column and every row on its own.
+Kensler 2013, "Correlated multi-jittered sampling", Pixar 13-01, takes one permutation for all columns and one for all
+rows, which lowers the variance of smooth integrands from N^-2 to N^-3.
 
 Beyond two dimensions, pairs of dimensions are padded: each pair is a set of its own, visited in a random order.
 """
@@ -38,9 +38,9 @@ _U64 = np.uint64
 _ORDER = _U64(0xBB67AE8584CAA73B)
 _LINES = _U64(0x3C6EF372FE94F82B)
 _BLOCK = 1024
-"""Points that are made at a time, so that what is known of them stays in the cache."""
+"""Number of points that are made at a time, so that their intermediate values stay in the cache."""
 _TABULATED = 1 << 16
-"""Largest number of places within lines that are a table: of one line, where all share it, or of all together."""
+"""Largest table of shuffled places: the places of one line if all lines share them, else those of all lines."""
 
 
 @kernel("void(float64[:,:,::1], uint64[::1], int64, int64, int64, int64, boolean)")
@@ -117,8 +117,10 @@ def _fill(
                     row[i] = place_in_cell(cell, hash_index(key, second, _U64(begin + i)), shift, step, width)
 
 
-class _MultiJittered(Sampler):
-    correlated: bool
+class MultiJittered(Sampler):
+    """Every column and every row is shuffled on its own."""
+
+    correlated = False
 
     def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`Sampler.fill`."""
@@ -128,13 +130,7 @@ class _MultiJittered(Sampler):
         _fill(out, realizations.keys, sides[0], sides[1], count, start, self.correlated)
 
 
-class MultiJittered(_MultiJittered):
-    """Every column and every row shuffled on its own."""
-
-    correlated = False
-
-
-class CorrelatedMultiJittered(_MultiJittered):
-    """One permutation for all columns, one for all rows."""
+class CorrelatedMultiJittered(MultiJittered):
+    """All columns share one permutation, and all rows another."""
 
     correlated = True

@@ -1,17 +1,22 @@
-"""Orthogonal array sampling: every t dimensions project onto one point in each cell of their s^t grid.
+"""Orthogonal array sampling: projected onto any t dimensions, there is one point in each cell of an s^t grid.
 
 Jarosz, Enayet, Kensler, Kilpatrick, Christensen 2019, "Orthogonal array sampling for Monte Carlo rendering", with the
 arrays of Bose 1938, "On the application of the properties of Galois fields to the problem of construction of
 hyper-Graeco-Latin squares" (strength t = 2, N = s^2), and Bush 1952, "Orthogonal arrays of index unity" (t = 3,
 N = s^3), s a prime. Both are one construction: the digits of the index in base s are the coefficients of a polynomial
-of degree below t, and column j is its value at j modulo s; column s is the leading coefficient. Any t of the s + 1
-columns determine the polynomial, so among the s^t points any t digits occur together once.
+of degree below t. Column j is its value at j modulo s, and column s its leading coefficient. Any t of the s + 1 columns
+determine the polynomial, so among the s^t points each combination of t digits occurs once.
 
-A column's digit, after a random permutation of the digits, is the stratum of a dimension; the offset within it follows
-one of the paper's three styles. ``jittered``: anywhere. ``multi-jittered``: the s^(t-1) points of a stratum, told apart
-by t - 1 other columns, go to its sub-strata in an order of its own, which makes every dimension Latin. ``correlated``:
-in an order that all strata share (Kensler 2013), which makes the pairs (or triples) of dimensions 0 and 1, 2 and 3, ...
-correlated multi-jittered. Points come in a random order.
+A column's digit, after a random permutation of the digits, is the stratum of a dimension. The offset within the stratum
+follows one of the paper's three styles:
+
+- ``jittered``: uniform;
+- ``multi-jittered``: t - 1 other columns number the s^(t-1) points of a stratum, which go to its sub-strata in a random
+  order of its own, so that every dimension is Latin;
+- ``correlated``: in a random order that all strata share (Kensler 2013), so that the pairs (or triples) of dimensions 0
+  and 1, 2 and 3, ... are correlated multi-jittered.
+
+Points come in a random order.
 """
 
 from __future__ import annotations
@@ -48,17 +53,17 @@ _U64 = np.uint64
 _ORDER = _U64(0x1F83D9ABFB41BD6B)
 _STRATA = _U64(0x5BE0CD19137E2179)
 _LINES = _U64(0x3C6EF372FE94F82B)
-JITTERED, MULTI_JITTERED, CORRELATED = range(3)
-STYLES = ("jittered", "multi-jittered", "correlated")
+_STYLES = ("jittered", "multi-jittered", "correlated")
+_JITTERED, _, _CORRELATED = range(3)
 _BLOCK = 1024
-"""Points that are made at a time, so that what is known of them stays in the cache."""
+"""Number of points that are made at a time, so that their intermediate values stay in the cache."""
 _TABULATED = 1 << 16
-"""Largest number of places within strata that are a table: of one stratum, where all share it, or of all together."""
+"""Largest table of shuffled places: the places of one stratum if all strata share them, else those of all strata."""
 
 
 @helper
 def _column(out: NDArray[np.float64], coefficients: NDArray[np.float64], column: int, s: float) -> None:
-    """Write the digits of a column: the polynomial at ``column`` modulo s, or its leading coefficient."""
+    """Write the digits of a column: the polynomials at ``column`` modulo s, for column s their leading coefficients."""
     degree = coefficients.shape[0] - 1
     if column == s:
         for i in range(out.size):
@@ -80,7 +85,7 @@ def _column(out: NDArray[np.float64], coefficients: NDArray[np.float64], column:
 def _write_coefficients(
     coefficients: NDArray[np.float64], order: NDArray[np.int64], base: float, count: int, start: int, key: np.uint64
 ) -> None:
-    """The digits in base s of the places of start, start + 1, ... in a random order of all points."""
+    """Write the digits in base s of the places that start, start + 1, ... have in a random order of all points."""
     strength, whole = coefficients.shape
     per_base = 1.0 / base
     if count <= SHUFFLED:
@@ -116,12 +121,12 @@ def _fill(
     place = np.empty(points, np.int64)
     strata = np.empty(s, np.int64)
     line_keys = np.empty(s, np.uint64)
-    places = sublines if style == CORRELATED else count
-    tabulated = style != JITTERED and places <= _TABULATED
-    per_line = 0 if style == CORRELATED else sublines
+    places = sublines if style == _CORRELATED else count
+    tabulated = style != _JITTERED and places <= _TABULATED
+    per_line = 0 if style == _CORRELATED else sublines
     table = np.empty(places if tabulated else 0, np.int64)
     subline_bits = permutation_bits(sublines)
-    cells = s if style == JITTERED else count
+    cells = s if style == _JITTERED else count
     bits = offset_bits(cells)
     shift, step, width = _U64(64 - bits), 2.0 ** (-bits), 1.0 / cells
     base = np.float64(s)
@@ -132,8 +137,8 @@ def _fill(
             second = second_key(key)
             shuffle(strata, s, mix64(key ^ _STRATA))
             line_key = mix64(key ^ _LINES)
-            for line in range(1 if tabulated and style == CORRELATED else s):
-                line_keys[line] = line_key if style == CORRELATED else mix64(line_key + _U64(line))
+            for line in range(1 if tabulated and style == _CORRELATED else s):
+                line_keys[line] = line_key if style == _CORRELATED else mix64(line_key + _U64(line))
                 if tabulated:
                     shuffle(table[line * sublines :], sublines, line_keys[line])
             # The other columns of the dimension's group: the last group moves back where it would pass column s.
@@ -145,7 +150,7 @@ def _fill(
                 _column(digits[0, :n], block, d, base)
                 for i in range(n):
                     stratum[i] = np.int64(digits[0, i])
-                if style == JITTERED:
+                if style == _JITTERED:
                     for i in range(n):
                         cell = np.float64(strata[stratum[i]])
                         random = hash_index(key, second, _U64(start + begin + i))
@@ -173,20 +178,28 @@ def _prime_root(count: int, strength: int) -> int:
 
 
 class OrthogonalArraySampler(Sampler):
-    """Points on the arrays of Bose and of Bush."""
+    """Points on the arrays of Bose and of Bush.
+
+    Parameters
+    ----------
+    strength
+        Number of dimensions that are stratified together, 2 or 3.
+    offset
+        How places within strata are chosen: ``jittered``, ``multi-jittered`` or ``correlated``.
+    """
 
     def __init__(self, strength: int = 2, offset: str = "correlated") -> None:
         self.strength = strength
         self.counts = PrimePowers(strength)
-        self.style = STYLES.index(offset)
+        self.style = _STYLES.index(offset)
 
     def refine(self, spec: SamplerSpec) -> SamplerSpec:
-        """The counts and the promises of this strength and offset."""
-        promises = (OrthogonalArray(self.strength), *(() if self.style == JITTERED else (LatinStrata(),)))
+        """Declare the counts and the promises of this strength and offset."""
+        promises = (OrthogonalArray(self.strength), *(() if self.style == _JITTERED else (LatinStrata(),)))
         return replace(spec, counts=self.counts, promises=promises)
 
     def check(self, count: int, dims: int, blocks: tuple[int, ...]) -> None:
-        """Raise unless the array has as many columns.
+        """Raise unless the array has enough columns.
 
         Raises
         ------

@@ -1,4 +1,4 @@
-"""Orders of the pixels of a tile along Morton's curve, the quadrants of every square visited in an order of its own.
+"""Orders of the pixels of a tile along Morton's curve, where each square visits its quadrants in an order of its own.
 
 Morton 1966, "A computer oriented geodetic data base"; Ahmed and Wonka 2020, "Screen-space blue-noise diffusion of Monte
 Carlo sampling error via hierarchical ordering of pixels", ACM TOG 39(6).
@@ -18,20 +18,20 @@ _U64 = np.uint64
 _ORDERS = np.array(list(permutations(range(4))), np.int64)
 """int64[24, 4]: the place of each quadrant x + 2 y."""
 TILE_LEVELS = 6
-"""Tiles of 2^6 x 2^6 pixels have an order of their own."""
+"""Tiles have 2^6 x 2^6 pixels."""
 
-# What each bit of x, and of y, contributes to the place, from the finest bit on. Found by annealing: of all maps that
-# are linear over the field of two elements and hierarchical, the one with the least expected error of straight edges at
-# random angles after a Gaussian blur of 2 pixels, from the covariance of the errors of two pixels d apart whose points
-# have k digits of x and l of y in common under Owen's scrambling. Relative to independent pixels that is 0.59; random
-# hierarchical orders have 0.86.
+# What each bit of x and of y contributes to the place, finest bit first. Annealing searched the hierarchical maps that
+# are linear over the field of two elements for the least expected error of straight edges at random angles after a
+# Gaussian blur of 2 pixels. The error follows from the covariance of the errors of two pixels at a distance d whose
+# points have k digits of x and l digits of y in common under Owen's scrambling. Relative to independent pixels it is
+# 0.59; random hierarchical orders have 0.86.
 _OF_X = np.array([1, 13, 20, 180, 340, 1382], np.int64)
 _OF_Y = np.array([3, 6, 60, 204, 576, 2956], np.int64)
 
 
 @helper
 def matched_place(x: int, y: int) -> int:
-    """The place of pixel (x, y), coordinates below 64, among 4096: nearby pixels complement each other along edges.
+    """Return the place among 4096 of the pixel (x, y), x and y below 64; near pixels complement each other at edges.
 
     Every aligned square of 4^k pixels has 4^k successive places, in some order.
     """
@@ -44,7 +44,7 @@ def matched_place(x: int, y: int) -> int:
 
 @helper
 def random_place(x: int, y: int, key: np.uint64) -> int:
-    """The place of pixel (x, y), coordinates below 64, among 4096: the quadrants of each square in random order."""
+    """Return the place among 4096 of the pixel (x, y), x and y below 64; quadrants are visited in random order."""
     second = second_key(key)
     square, place = 1, 0
     for level in range(TILE_LEVELS - 1, -1, -1):

@@ -1,15 +1,15 @@
 """Progressive multi-jittered (0, 2)-sequences, pmj02.
 
 Christensen, Kensler, Kilpatrick 2018, "Progressive multi-jittered sample sequences", EGSR; Helmer, Christensen, Kensler
-2021, "Stochastic generation of (t, s) sample sequences", EGSR, whose supplement makes them point by point: the first
-digits of a point are those of an earlier one exclusive-ored with a constant, which is a column of a generator matrix,
-the digits behind them are random.
+2021, "Stochastic generation of (t, s) sample sequences", EGSR. The supplement of the latter makes them point by point:
+the first digits of a point are those of an earlier point exclusive-ored with a constant, a column of a generator
+matrix; the digits after them are random.
 
-The matrices are fixed by the order in which pmj02 fills the square. At N = 4^k, point N + i lies in the cell of point i
-on the 2^k x 2^k grid, in the opposite quadrant; at N = 2 4^k, in that cell, with one coordinate in the other half, here
-x and y by turns. That determines every column. The random digits are an Owen scrambling of that digital sequence, by a
-hash, so that any point can be had on its own: points made one after the other with fresh random digits have the same
-distribution, as the paper shows.
+The order in which pmj02 fills the square determines the matrices. For N = 4^k, point N + i lies in the cell of point i
+on the 2^k x 2^k grid, in the opposite quadrant. For N = 2 4^k it lies in that cell with one coordinate in the other
+half, here x and y by turns. The random digits are a hashed Owen scrambling of the digital sequence, so that any point
+can be computed alone. Points made one after the other with fresh random digits have the same distribution, as the paper
+shows.
 """
 
 from __future__ import annotations
@@ -29,11 +29,11 @@ if TYPE_CHECKING:
 
 
 def pmj02_columns() -> NDArray[np.uint32]:
-    """Columns uint32[2, 32] of the generator matrices: U and P U, with P Pascal's matrix modulo 2.
+    """Return the columns of the generator matrices U and P U, where P is Pascal's matrix modulo 2: uint32[2, 32].
 
-    I and P generate a (0, 2)-sequence; a triangular U on the right changes the order within the prefixes of 2^m points
-    alone. Column m of U is the u with u_m = 1 and nothing below for which the first k digits of u and of P u are 0,
-    k = m // 2; for odd m, which leaves one choice, one of the two next digits is 0 as well.
+    The identity and P generate a (0, 2)-sequence. An upper triangular U on the right changes only the order within each
+    prefix of 2^m points. Column m of U is the u with u_m = 1 and no later digits for which the first k = m // 2 digits
+    of u and of P u are 0; for odd m this leaves a choice, and the next digit of one of the two is 0 as well.
     """
     columns = np.zeros((2, BITS), np.uint64)
     for m in range(BITS):
@@ -43,18 +43,18 @@ def pmj02_columns() -> NDArray[np.uint32]:
             # x moves at m = 1, 5, ..., y at m = 3, 7, ...
             wanted_x, wanted_y = (k, k + 1) if k % 2 == 0 else (k + 1, k)
         u = _solve(m, wanted_x, wanted_y)
-        columns[:, m] = _mirrored(u), _mirrored(_pascal(u))
+        columns[:, m] = _mirror(u), _mirror(_pascal(u))
     return columns.astype(np.uint32)
 
 
 def _pascal(u: int) -> int:
-    """P u for digits u, digit r in bit r: (P u)_r is the sum of C(c, r) u_c."""
+    """Return P u for digits u, with digit r in bit r: (P u)_r is the sum of C(c, r) u_c."""
     # C(c, r) is odd where the bits of r are among those of c (Lucas 1878).
     return sum((sum(u >> c & 1 for c in range(BITS) if c & r == r) & 1) << r for r in range(BITS))
 
 
 def _solve(m: int, zeros_x: int, zeros_y: int) -> int:
-    """The u = 2^m + lower bits whose first ``zeros_x`` digits, and those ``zeros_y`` of P u, are 0."""
+    """Return the u = 2^m + lower bits whose first ``zeros_x`` digits, and the first ``zeros_y`` of P u, are 0."""
     # Gauss-Jordan elimination over the field of two elements on the bits below m; bit m is the right side.
     rows = [1 << r for r in range(zeros_x)]
     rows += [sum(1 << c for c in range(m + 1) if c & r == r) for r in range(zeros_y)]
@@ -74,8 +74,8 @@ def _solve(m: int, zeros_x: int, zeros_y: int) -> int:
     return u
 
 
-def _mirrored(digits: int) -> int:
-    """Digit 1 from bit 0 to the top bit of 32."""
+def _mirror(digits: int) -> int:
+    """Reverse the order of 32 bits."""
     return int(f"{digits:0{BITS}b}"[::-1], 2)
 
 
@@ -85,7 +85,7 @@ def _tables() -> NDArray[np.uint32]:
 
 
 class Pmj02(Sampler):
-    """Pairs of dimensions; the first in the order of pmj02, the others shuffled so that prefixes stay nets."""
+    """Pairs of dimensions: the first in the order of pmj02, the others shuffled so that prefixes stay nets."""
 
     def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`Sampler.fill`."""

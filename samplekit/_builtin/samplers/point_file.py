@@ -1,9 +1,9 @@
-"""Anybody's point sets, from a file: to be analysed and rendered with like those of any sampler.
+"""Point sets from a file, to be analysed and rendered with like those of any sampler.
 
-The file has R sets of N points in D dimensions (see `samplekit.files` for its formats), and N and D are what
-can be asked for. Pixel (x, y) takes set (x + a y + seed) modulo R with a the number nearest to R divided by the golden
-ratio that has no factor in common with R: in a row, as in trials, the sets come one after the other from the set that
-is the seed, and pixels with the same set lie on a lattice, far from each other.
+The file has R sets of N points in D dimensions (see :func:`samplekit.files.read_points` for its formats); no other N
+and D can be made. Pixel (x, y) takes the set (x + a y + seed) modulo R. Here a is the number nearest to R divided by
+the golden ratio that has no factor in common with R. So the pixels of a row, like trials, take one set after the other,
+beginning with the set whose number is the seed; pixels with the same set lie on a lattice, far from each other.
 """
 
 from __future__ import annotations
@@ -29,13 +29,24 @@ _GOLDEN = (1 + 5**0.5) / 2
 
 
 def row_step(sets: int) -> int:
-    """How many sets further a row begins than the row above it."""
+    """Return by how many sets the first set of a row differs from that of the row above it."""
     nearest = round(sets / _GOLDEN)
     return next(a for d in count_from() for a in (nearest - d, nearest + d) if a >= 1 and gcd(a, sets) == 1)
 
 
 class PointFile(Sampler):
-    """The points of a file, in the order that they have there."""
+    """The points of a file, in its order.
+
+    Parameters
+    ----------
+    path
+        The file, as on the command line.
+
+    Raises
+    ------
+    UsageError
+        The command line cannot express the path, or the file cannot be read.
+    """
 
     def __init__(self, path: str) -> None:
         _check_text(path)
@@ -45,7 +56,7 @@ class PointFile(Sampler):
         self.points = np.ascontiguousarray(points.transpose(0, 2, 1))
 
     def refine(self, spec: SamplerSpec) -> SamplerSpec:
-        """As many points and dimensions as the file has, and as random as its sets."""
+        """Declare the counts and dimensions of the file; its sets are random if there are several."""
         several = self.sets > 1
         return replace(
             spec,
@@ -61,20 +72,20 @@ class PointFile(Sampler):
         Raises
         ------
         UsageError
-            It has others: names them.
+            The file has other sets: names them.
         """
         if (count, dims) != (self.count, self.dims):
-            raise UsageError(f"{self.path} has {self._what()}, not {count} points in {dims}")
+            raise UsageError(f"{self.path} has {self._describe_sets()}, not {count} points in {dims}")
 
     def notes(self, count: int, dims: int) -> list[str]:
-        """What is in the file, and which set a pixel takes."""
+        """Say what the file contains, and which set a pixel takes."""
         digest = hashlib.sha256(self.points.tobytes()).hexdigest()[:16]
-        note = f"points from a file: {self._what()}, sha256 of the numbers {digest}..."
+        note = f"points from a file: {self._describe_sets()}, sha256 of the numbers {digest}..."
         if self.sets == 1:
             return [note, "every pixel has the same points"]
         return [note, f"pixel (x, y) takes set (x + {row_step(self.sets)} y + seed) modulo {self.sets}"]
 
-    def _what(self) -> str:
+    def _describe_sets(self) -> str:
         sets = "one set" if self.sets == 1 else f"{self.sets} sets"
         return f"{sets} of {self.count} points in {self.dims} dimensions"
 
@@ -89,13 +100,13 @@ class PointFile(Sampler):
 
 
 def _check_text(path: str) -> None:
-    """Refuse a path that the command line could not say: what is shown and stored must choose the same file again.
+    """Refuse a path that the command line cannot express: the text that is stored must choose the same file again.
 
     Raises
     ------
     UsageError
-        It holds a comma, which ends an option, a plus sign before a letter, which begins a randomizer, or begins or
-        ends with a space.
+        The path has a comma, which ends an option, a plus sign before a letter, which begins a randomizer, or a space
+        at its start or end.
     """
     try:
         choice = parse_choice(f"file:path={path}", "sampler")

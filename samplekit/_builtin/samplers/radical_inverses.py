@@ -4,15 +4,14 @@ Halton 1960, "On the efficiency of certain quasi-random sequences of points in e
 integrals"; Hammersley 1960, "Monte Carlo methods for solving multivariable problems". Indices start at 0, so that no
 coordinate is 1.
 
-While the index is below the bases b and b', points are (i / b, i / b'): in the dimensions of 7907 and 7919 the first
-256 lie on a line. Scrambled digits end that: ``digits`` permutes them at random, the same way for all points at
-each place (Owen 2017), ``owen`` in a way of its own for all digits before (Owen 1995), which also makes the variance
+While the index i is below the bases b and b', points are (i / b, i / b'): in the dimensions of 7907 and 7919 the first
+256 points lie on a line. Scrambled digits end that. ``digits`` takes one random permutation of the digits for each
+place (Owen 2017). ``owen`` takes one for each place and all digits before it (Owen 1995), which also makes the variance
 fall faster.
 """
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -31,7 +30,6 @@ if TYPE_CHECKING:
     Fill = Callable[[NDArray[np.float64], Realizations, int, int], None]
 
 _SCRAMBLE = np.uint64(0x9159015A3070DD17)
-LARGEST_SCRAMBLED_INDEX = 2**32 - 1
 
 
 class RadicalInverses(Sampler):
@@ -43,7 +41,7 @@ class RadicalInverses(Sampler):
         out[1:] = out[0]
 
     def fused(self, randomizer: str) -> Fill | None:
-        """Shifted or scrambled points without plain ones before; nested scrambling in primes alone."""
+        """Return the fill that makes shifted or scrambled points at once."""
         return {"xor": self._fill_shifted, "owen": self._fill_scrambled}.get(randomizer)
 
     def _fill_shifted(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
@@ -62,24 +60,24 @@ class Halton(RadicalInverses):
     Parameters
     ----------
     scramble
-        ``none``; ``digits``: a random permutation at each place; ``owen``: nested scrambling.
+        ``none``, ``digits`` (a random permutation for each place) or ``owen`` (nested scrambling).
     """
 
     def __init__(self, scramble: str = "none") -> None:
         self._scramble = scramble
 
     def refine(self, spec: SamplerSpec) -> SamplerSpec:
-        """Scrambled points are random, and unbiased."""
+        """Declare that scrambled points are random and unbiased."""
         if self._scramble == "none":
             return spec
-        return replace(spec, randomized=True, unbiased=True, largest_index=LARGEST_SCRAMBLED_INDEX)
+        return replace(spec, randomized=True, unbiased=True, largest_index=2**32 - 1)
 
     def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`Sampler.fill`."""
         if self._scramble == "none":
             super().fill(out, realizations, count, start)
             return
-        # Keys of its own: the randomizer ``owen`` scrambles these points once more, and the hashes must differ.
+        # The randomizer ``owen`` may scramble these points once more: its hashes must differ from these.
         keys = realizations.keys ^ _SCRAMBLE
         if self._scramble == "owen":
             fill_nested(out, keys, self._bases(out), start)
@@ -87,39 +85,45 @@ class Halton(RadicalInverses):
             fill_mirrored(out, keys, self._bases(out), start, PERMUTED)
 
     def fused(self, randomizer: str) -> Fill | None:
-        """Points that are scrambled already have no fused form."""
+        """Return the fused fill of unscrambled points; scrambled points have none."""
         return super().fused(randomizer) if self._scramble == "none" else None
 
     def bases(self, dims: int) -> tuple[int, ...]:
-        """The first ``dims`` primes."""
+        """Return the first ``dims`` primes."""
         return primes(dims)
 
 
 class VanDerCorput(RadicalInverses):
-    """The radical inverse of the index in one base."""
+    """The radical inverse of the index in one base.
+
+    Parameters
+    ----------
+    base
+        Base of the digits, 2 to 1000.
+    """
 
     def __init__(self, base: int = 2) -> None:
         self.base = base
 
     def refine(self, spec: SamplerSpec) -> SamplerSpec:
-        """Blocks of powers of the base are nets in it."""
+        """Declare nets in the base."""
         return replace(spec, promises=(Net(dims=(0,), base=self.base),))
 
     def fused(self, randomizer: str) -> Fill | None:
-        """As that of all radical inverses; composite bases are left to the randomizer."""
-        composite = any(self.base % divisor == 0 for divisor in range(2, math.isqrt(self.base) + 1))
-        return None if composite and randomizer == "owen" else super().fused(randomizer)
+        """Return the fused fill, but leave Owen's scrambling in a composite base to the randomizer."""
+        is_prime = self.base in primes(168)  # all up to 1000
+        return super().fused(randomizer) if is_prime or randomizer != "owen" else None
 
     def bases(self, dims: int) -> tuple[int, ...]:
-        """The base, for the one dimension."""
+        """Return the base of the one dimension."""
         return (self.base,) * dims
 
 
 class Hammersley(RadicalInverses):
     """Dimension 0 is index / count, dimension d the radical inverse in the d-th prime.
 
-    b^m points are a (0, m, 2)-net in base b in dimension 0 and that of the prime b. That is declared of base 2 alone,
-    for a scrambling of dimension 0 can be in one base only.
+    In dimension 0 and the dimension of the prime b, b^m points are a (0, m, 2)-net in base b. Only the net in base 2 is
+    declared, since dimension 0 can be scrambled in one base only.
     """
 
     def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
@@ -131,9 +135,9 @@ class Hammersley(RadicalInverses):
         out[1:] = out[0]
 
     def fused(self, randomizer: str) -> Fill | None:
-        """None: index / count depends on the count."""
+        """Return None: index / count depends on the count."""
         return None
 
     def bases(self, dims: int) -> tuple[int, ...]:
-        """Base 2 for index / count, then the primes."""
+        """Return base 2 for index / count, then the primes."""
         return (2, *primes(dims - 1))

@@ -1,4 +1,4 @@
-"""Independent uniform points: the white noise that every other sampler is measured against."""
+"""Independent uniform points: white noise, to which all other samplers are compared."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 @cache
 def direction_numbers(dims: int) -> NDArray[np.uint32]:
-    """Columns uint32[dims, 32] of the generator matrices (Joe and Kuo 2008, section 2: recurrence (2))."""
+    """Return the columns of the generator matrices, uint32[dims, 32] (Joe and Kuo 2008, recurrence (2))."""
     with resources.files("samplekit._builtin.samplers").joinpath("data/joe_kuo.npz").open("rb") as file:
         archive = np.load(file, allow_pickle=False)
         polynomials, initial = archive["polynomials"][:dims], archive["initial"]
@@ -40,8 +40,8 @@ def direction_numbers(dims: int) -> NDArray[np.uint32]:
 
 
 class Sobol(DigitalSequence):
-    """Point i from the bits of i, in up to 4096 dimensions."""
+    """Sobol's sequence in up to 4096 dimensions."""
 
     def columns(self, dims: int) -> NDArray[np.uint32]:
-        """The direction numbers of the first ``dims`` dimensions."""
+        """Return the direction numbers of the first ``dims`` dimensions: see :class:`DigitalSequence`."""
         return direction_numbers(dims)

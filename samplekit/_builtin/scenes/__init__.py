@@ -1,1 +1,1 @@
-"""Scenes: a file a scene, with what it needs, its value, and its exact mean over a pixel."""
+"""Scenes: one file each, with the dimensions that it needs, its value, and its exact mean over a pixel."""

@@ -1,17 +1,17 @@
-"""Ambient occlusion: how much of the sky an endless floor sees past a sphere above it, and the sphere past the floor.
+"""Ambient occlusion: the part of the sky that a floor and a sphere above it see, each past the other.
 
 Langer and Bülthoff 2000, "Depth discrimination from shading under diffuse lighting": light from everywhere, weighted by
 the cosine with the normal. Directions are uniform in the disk under the hemisphere (Malley's method; Pharr, Jakob,
-Humphreys, "Physically Based Rendering", A.5.3), so that the mean is the share of rays that escape. The first dimension
-is their azimuth, the second the squared sine of their angle with the normal: what wraps around in the square wraps
-around on the sky, which point sets on the torus live on. In closed form:
+Humphreys, "Physically Based Rendering", A.5.3), so that the mean is the share of rays that escape. Dimension 0 of a
+direction is its azimuth, dimension 1 the squared sine of its angle with the normal: where the unit square wraps around,
+so does the azimuth, as suits point sets that are made on the torus. The share of rays that escape has closed forms:
 
-- the floor at a distance D from the centre of a sphere of radius R at the height h: 1 - R^2 h / D^3, the form factor of
-  a sphere that lies wholly above the horizon (Howell, "A catalog of radiation heat transfer configuration factors");
-- the sphere where its normal has the vertical component n: (1 + n) / 2.
+- from the floor, at a distance D from the centre of a sphere of radius R at the height h: 1 - R^2 h / D^3, the form
+  factor of a sphere wholly above the horizon (Howell, "A catalog of radiation heat transfer configuration factors");
+- from the sphere, where its normal has the vertical component n: (1 + n) / 2.
 
-The camera is orthographic and looks down at the slope 3 : 4, so that the sphere's outline is a circle. Over the pixel
-the closed forms are integrated adaptively along that circle.
+The camera is orthographic and looks down at the slope 3 : 4, so that the sphere's outline is a circle. The mean over a
+pixel is an adaptive integral of the closed forms, which follows that circle.
 """
 
 from __future__ import annotations
@@ -31,8 +31,6 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-LARGEST = 1e6
-"""Radius, height and place stay below this: beyond it the picture's few units are lost in rounding."""
 _VIEW = 5.0  # width and height of the picture, in units of the floor
 _SINE, _COSINE = 0.6, 0.8  # of the camera's elevation
 _AIM = 0.4  # the point at the height 1/2 above the floor's origin is in the middle
@@ -70,34 +68,32 @@ def _sums(tile: Array, boxes: Array, out: Array, radius: float, height: float, c
 
 
 class AmbientOcclusion(Scene):
-    """The share of rays, weighted by the cosine, that leave a floor and a sphere.
+    """The share of rays, weighted by the cosine, that escape from a floor and a sphere.
 
     Parameters
     ----------
     radius
-        Of the sphere; 0: there is none, and all is 1.
+        Radius of the sphere. 0: there is no sphere, and the image is 1.
     height
-        Of the sphere's centre, at least the radius; equal: it touches the floor.
+        Height of the sphere's centre, at least the radius. Equal: the sphere touches the floor.
     cx, cy
-        Where on the floor it stands; the picture shows -2.5 to 2.5 across.
+        The place on the floor below the centre; the picture shows -2.5 to 2.5 across.
 
     Raises
     ------
     UsageError
-        The sphere would go through the floor, or a parameter is out of range.
+        The sphere would go through the floor.
     """
 
     reference_error = 1e-8
 
     def __init__(self, radius: float = 0.9, height: float = 1.0, cx: float = 0.0, cy: float = 0.0) -> None:
-        if not (0.0 <= radius <= LARGEST and max(height, abs(cx), abs(cy)) <= LARGEST):
-            raise UsageError(f"ambient-occlusion: radius must be from 0 to {LARGEST:g}, all else at most {LARGEST:g}")
-        if not height >= radius:
+        if height < radius:
             raise UsageError(f"radius={radius:g}, height={height:g}: the sphere would go through the floor")
         self.radius, self.height, self.cx, self.cy = float(radius), float(height), float(cx), float(cy)
 
     def dimensions(self) -> Mapping[str, int]:
-        """Pixel and direction; without a sphere no direction."""
+        """Return the dimensions of pixel and direction; without a sphere those of the pixel alone."""
         return {"pixel": 2, "direction": 2} if self.radius > 0.0 else {"pixel": 2}
 
     def sums(self, tile: Array, boxes: Array, out: Array) -> None:
@@ -108,15 +104,14 @@ class AmbientOcclusion(Scene):
             _sums(tile, boxes, out, self.radius, self.height, self.cx, self.cy)
 
     def constant(self, x_edges: Array, y_edges: Array) -> Array:
-        """Return 1 without a sphere, else NaN: every point sees both sky and sphere, or sky and floor."""
+        """Return 1 without a sphere, else NaN, as no pixel is constant: float64[h, w]."""
         return np.full((y_edges.size - 1, x_edges.size - 1), np.nan if self.radius > 0.0 else 1.0)
 
     def exact(self, x_edges: Array, y_edges: Array) -> Array:
         """Return the mean over each pixel: float64[h, w], within ``reference_error``."""
         from samplekit.quadrature import Curves, kept_means
 
-        centre_v = self.cy * _SINE + self.height * _COSINE - _AIM
-        outline = [0.5 + self.cx / _VIEW, 0.5 - centre_v / _VIEW, self.radius / _VIEW]
+        outline = [0.5 + self.cx / _VIEW, 0.5 - self._centre_v() / _VIEW, self.radius / _VIEW]
         return kept_means(
             f"{self.radius!r} {self.height!r} {self.cx!r} {self.cy!r}",
             (__file__,),
@@ -133,6 +128,10 @@ class AmbientOcclusion(Scene):
         """Return the closed form at the points x float64[w] by y float64[h]: float64[h, w]."""
         return self._escaping(*np.broadcast_arrays(x[None], y[:, None]))
 
+    def _centre_v(self) -> float:
+        """Return how far above the middle of the picture the sphere's centre is seen."""
+        return self.cy * _SINE + self.height * _COSINE - _AIM
+
     def _escaping(self, x: Array, y: Array) -> Array:
         """Return the share of rays that escape from the points (x, y) of the picture."""
         if self.radius == 0.0:
@@ -142,7 +141,7 @@ class AmbientOcclusion(Scene):
         squared = u * u + floor_y * floor_y + self.height**2
         floor = 1.0 - self.radius**2 * self.height / (squared * np.sqrt(squared))
         right = u / self.radius
-        above = (v - (self.cy * _SINE + self.height * _COSINE - _AIM)) / self.radius
+        above = (v - self._centre_v()) / self.radius
         inside = right * right + above * above
         normal = above * _COSINE + np.sqrt(np.maximum(0.0, 1.0 - inside)) * _SINE
         return np.where(inside < 1.0, 0.5 + 0.5 * normal, floor)

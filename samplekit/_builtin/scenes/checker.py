@@ -1,7 +1,7 @@
-"""The checkerboard: edges along the axes, on which grids of samples are lucky or unlucky as a whole.
+"""The checkerboard, whose edges lie along the axes: on them all rows of a grid of samples err alike.
 
-The exact mean over a box is separable: 1/2 + 1/2 S(x0, x1) S(y0, y1), S the mean of the square wave that alternates
-between 1 and -1.
+The exact mean over a box is separable: 1/2 + 1/2 S(x0, x1) S(y0, y1), where S is the mean of the square wave that
+alternates between 1 and -1.
 """
 
 from __future__ import annotations
@@ -10,21 +10,21 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit import Scene, UsageError
+from samplekit import Scene
 from samplekit.kernels import BLOCK, fma, helper, kernel, lane_sum, two_product
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-_MOST_CELLS = 2**20
+    Array = NDArray[np.float64]
 
 
 class Checker(Scene):
     """1 where floor(cells x) + floor(cells y) is even, else 0.
 
-    Samples see cell j begin at the float64 nearest to j / cells, and stay below the right edge of their pixel. A pixel
-    edge i / w that equals j / cells is that same float64, so that no sample falls into the cell beyond, whatever the
-    rounding. The reference has the edges of the real line, at most half a unit in the last place away.
+    For samples cell j begins at the float64 nearest to j / cells, and every sample stays below the right edge of its
+    pixel. A pixel edge i / w that equals j / cells is that same float64, so that rounding moves no sample into the next
+    cell. The reference has its edges at the real numbers j / cells, at most half a unit in the last place away.
 
     Parameters
     ----------
@@ -33,23 +33,21 @@ class Checker(Scene):
     """
 
     def __init__(self, cells: int = 8) -> None:
-        if not 1 <= cells <= _MOST_CELLS or cells != int(cells):
-            raise UsageError(f"checker: cells={cells} must be a whole number from 1 to {_MOST_CELLS}")
         self.cells = float(cells)
 
-    def sums(self, tile: NDArray[np.float64], boxes: NDArray[np.float64], out: NDArray[np.float64]) -> None:
+    def sums(self, tile: Array, boxes: Array, out: Array) -> None:
         """Count each pixel's samples in even cells: see :meth:`Scene.sums`."""
         _sums(tile, boxes, self.cells, out)
 
-    def exact(self, x_edges: NDArray[np.float64], y_edges: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Integrate over each pixel's box: its mean float64[h, w], within 1e-15."""
+    def exact(self, x_edges: Array, y_edges: Array) -> Array:
+        """Return the mean over each pixel: float64[h, w], within 1e-15."""
         x_means, y_means = np.empty(x_edges.size - 1), np.empty(y_edges.size - 1)
         _means(np.ascontiguousarray(x_edges), self.cells, x_means)
         _means(np.ascontiguousarray(y_edges), self.cells, y_means)
         return 0.5 + 0.5 * np.multiply.outer(y_means, x_means)
 
-    def constant(self, x_edges: NDArray[np.float64], y_edges: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Find the pixels whose first and last sample are in one cell; NaN elsewhere: float64[h, w]."""
+    def constant(self, x_edges: Array, y_edges: Array) -> Array:
+        """Return the value of the pixels whose first and last sample are in one cell, NaN elsewhere: float64[h, w]."""
         x_signs, y_signs = np.empty(x_edges.size - 1), np.empty(y_edges.size - 1)
         _signs(np.ascontiguousarray(x_edges), self.cells, x_signs)
         _signs(np.ascontiguousarray(y_edges), self.cells, y_signs)
@@ -64,13 +62,13 @@ def _sign(cell: float) -> float:
 
 @helper
 def _cell(x: float, cells: float) -> float:
-    """Return the last cell whose edge, rounded to float64, is at or before ``x``: the nearest edge's, or one less."""
+    """Return the last cell that begins at or before ``x``: that of the nearest edge, or the one before it."""
     nearest = np.rint(x * cells)
     return float(nearest - (1.0 if nearest / cells > x else 0.0))
 
 
 @kernel("void(float64[:,:,::1], float64[:,::1], float64, float64[::1])")
-def _sums(tile: NDArray[np.float64], boxes: NDArray[np.float64], cells: float, out: NDArray[np.float64]) -> None:
+def _sums(tile: Array, boxes: Array, cells: float, out: Array) -> None:
     pixels, _, count = tile.shape
     values = np.empty(BLOCK)
     for pixel in range(pixels):
@@ -85,8 +83,8 @@ def _sums(tile: NDArray[np.float64], boxes: NDArray[np.float64], cells: float, o
 
 
 @kernel("void(float64[::1], float64, float64[::1])")
-def _signs(edges: NDArray[np.float64], cells: float, signs: NDArray[np.float64]) -> None:
-    """Find the sign of the cell of all samples between neighbouring edges; NaN where there are several."""
+def _signs(edges: Array, cells: float, signs: Array) -> None:
+    """Write the sign of the cell that holds all samples between neighbouring edges, NaN where they are in several."""
     for i in range(signs.size):
         left, width = edges[i], edges[i + 1] - edges[i]
         first, last = _cell(left, cells), _cell(np.nextafter(left + width, left), cells)
@@ -95,7 +93,7 @@ def _signs(edges: NDArray[np.float64], cells: float, signs: NDArray[np.float64])
 
 @helper
 def _split(edge: float, cells: float) -> tuple[float, float, float]:
-    """Return the cell of an edge, and its distances from the cell's begin and end in cells, each fully accurate."""
+    """Return the cell of an edge, and the edge's distances from the cell's start and end, accurate to the last bit."""
     product, error = two_product(edge, cells)
     cell = np.floor(product)
     if product == cell and error < 0.0:
@@ -104,10 +102,10 @@ def _split(edge: float, cells: float) -> tuple[float, float, float]:
 
 
 @kernel("void(float64[::1], float64, float64[::1])")
-def _means(edges: NDArray[np.float64], cells: float, means: NDArray[np.float64]) -> None:
+def _means(edges: Array, cells: float, means: Array) -> None:
     """Average the square wave between neighbouring edges, within 4e-16.
 
-    The cells between the first and the last cancel in pairs; what is left is the ends, and one cell of an odd number.
+    The cells between the first and the last cancel in pairs; the ends are left, and one cell if their number is odd.
     """
     for i in range(means.size):
         first, _, after = _split(edges[i], cells)

@@ -1,7 +1,7 @@
-"""Which pixels of the depth-of-field scene show one value, from every place in them and every point of the lens.
+"""Pixels of the depth-of-field scene that show one value, from every place in them and every point of the lens.
 
 Interval arithmetic on the places p + c l: a pixel's box, grown by the circle of confusion, is inside a disk if its
-farthest corner is, outside if its nearest point is. The bounds have slack for the rounding of the samples' places.
+farthest corner is, and outside if its nearest point is. The bounds have slack for the rounding of the samples' places.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ _SLACK = 1e-12  # relative: places p + c l are rounded three times, each time by
 
 @kernel("int64(float64, float64, float64, float64, float64, float64, float64, float64)")
 def _side(x0: float, x1: float, y0: float, y1: float, cx: float, cy: float, radius: float, reach: float) -> int:
-    """Return 1 if a box, moved by up to ``reach``, stays in a disk, -1 if it stays out, 0 if neither is proven.
+    """Return 1 if a box, moved by up to ``reach``, stays in a disk, -1 if it stays outside, 0 if neither is proven.
 
-    2 if neither can be proven of any part of the box.
+    Return 2 if neither can be proven for any part of the box.
     """
     reach += _SLACK * (1.0 + reach)
     near_x, near_y = max(x0 - cx, cx - x1, 0.0), max(y0 - cy, cy - y1, 0.0)
@@ -54,10 +54,10 @@ def _shown(
     confusion: Array,
     sides: NDArray[np.int64],
 ) -> float:
-    """Return what a box shows through all of the lens, NaN if that is not proven to be one value.
+    """Return the value that a box shows through the whole lens, NaN if it is not proven to be one value.
 
-    From front to back until a layer fills the box or shows in part. ``sides``: what is proven already of the disks and
-    of the ring's inner and outer circle; receives what is proven here.
+    Goes from front to back until a layer fills the box or shows in part. ``sides`` holds the results of ``_side`` for
+    the disks and for the ring's inner and outer circle, and receives those that are found here.
     """
     disks = front.shape[0]
     for k in range(disks):
@@ -87,18 +87,18 @@ def _shown(
 
 
 @helper
-def _about_line(low: float, high: float, reach: float, wall: Array) -> bool:
-    """Return whether one of the wall's lines is within ``reach`` of all that lies between ``low`` and ``high``."""
+def _is_near_line(low: float, high: float, reach: float, wall: Array) -> bool:
+    """Return whether one of the wall's lines is within ``reach`` of every place between ``low`` and ``high``."""
     line = max(np.ceil((high - reach - wall[0]) / wall[1]), 0.0)
     return bool(line <= wall[2] and wall[0] + line * wall[1] <= low + reach)
 
 
 @kernel("void(float64[::1], float64[::1], float64[:,::1], float64[::1], float64[::1], float64[::1], float64[:,::1])")
 def constant_pixels(x: Array, y: Array, front: Array, ring: Array, wall: Array, confusion: Array, out: Array) -> None:
-    """Write what each pixel shows through all of the lens, NaN where that is not proven to be one value.
+    """Write the value that each pixel shows through the whole lens, NaN where it is not proven to be one value.
 
-    Blocks of pixels come first: what is proven of a block holds in its pixels, and so does that nothing can be proven.
-    Pixels about the end of a line, where the wall's border is in view, are taken for blurred without more ado.
+    Blocks of pixels come first: a result for a block holds for its pixels, and so does that there is nothing to prove.
+    Pixels near the end of a line, where the wall's border is in view, count as blurred without a closer look.
     """
     of_block, of_pixel = np.empty(front.shape[0] + 2, np.int64), np.empty(front.shape[0] + 2, np.int64)
     for top in range(0, out.shape[0], _BLOCK):
@@ -117,7 +117,8 @@ def constant_pixels(x: Array, y: Array, front: Array, ring: Array, wall: Array, 
                 blurred |= side == 2 and of_block[: front.shape[0]].max() != 1
             in_front, inner, outer = of_block[: front.shape[0]].max(), of_block[-2], of_block[-1]
             if in_front == -1 and (inner == 1 or outer == -1):
-                blurred |= _about_line(x0, x1, abs(confusion[2]), wall) or _about_line(y0, y1, abs(confusion[2]), wall)
+                reach = abs(confusion[2])
+                blurred |= _is_near_line(x0, x1, reach, wall) or _is_near_line(y0, y1, reach, wall)
             value = math.nan
             if not blurred:
                 value = _shown(x0, x1, y0, y1, front, ring, wall, confusion, of_block)

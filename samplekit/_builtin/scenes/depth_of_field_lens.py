@@ -1,10 +1,10 @@
-"""What a point of the picture shows on average over the lens: exact, as areas in the unit disk of lens points.
+"""The exact mean over the lens at a point of the picture, as areas in the unit disk of lens points.
 
-Seen from the point p of the picture, a layer with the circle of confusion c lies in the plane of lens points scaled by
-1/c about p: circles stay circles, lines stay lines. The value is constant between these curves, so that its integral is
-a sum over the pieces into which they cut each other (Green's theorem): the step of the value across a piece times
-1/2 the integral of x dy - y dx along it. A piece that nearer layers hide makes no step. Nothing has to fit together: a
-crossing that two curves see at places an ulp apart changes the sum by an ulp.
+Seen from the point p of the picture, a layer with the circle of confusion c is drawn in the plane of lens points scaled
+by 1/c about p: circles stay circles, lines stay lines. The value is constant between these curves. So its integral is a
+sum over the pieces into which the curves cut each other (Green's theorem): the step of the value across a piece, times
+half the integral of x dy - y dx along it. A piece that nearer layers hide makes no step. The sum is robust: where two
+curves compute their crossing at places an ulp apart, it changes by an ulp.
 """
 
 from __future__ import annotations
@@ -22,12 +22,12 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 _LAYERS = "float64[:,::1], float64[::1], float64[::1], float64[::1]"
-_SHARP = 1e-12  # Circles of confusion below this are left out: they change the mean over a pixel by less than 1e-9.
+_SHARP = 1e-12  # Smaller circles of confusion are left out: they change the mean over a pixel by less than 1e-9.
 _FRONTS, _INNER, _OUTER, _LENS = 0, -1, -2, -3
 
 
 @helper
-def _wall_cell(column: float, row: float, wall: Array) -> float:
+def _wall_value(column: float, row: float, wall: Array) -> float:
     if column < 0.0 or row < 0.0 or column >= wall[2] or row >= wall[2]:
         return float(wall[5])
     half = 0.5 * (column + row)
@@ -46,7 +46,7 @@ def _seen(
     confusion: Array,
     nearest: int,
 ) -> float:
-    """Return the value at a lens point behind the first ``nearest`` layers: 0 all, 1 ring and wall, 2 the wall."""
+    """Return the value seen through a lens point without the first ``nearest`` of the layers disks, ring and wall."""
     if nearest == 0:
         for k in range(front.shape[0]):
             dx, dy = x + confusion[0] * lens_x - front[k, 0], y + confusion[0] * lens_y - front[k, 1]
@@ -59,7 +59,7 @@ def _seen(
             return float(ring[4])
     column = np.floor((x + confusion[2] * lens_x - wall[0]) / wall[1])
     row = np.floor((y + confusion[2] * lens_y - wall[0]) / wall[1])
-    return _wall_cell(column, row, wall)
+    return _wall_value(column, row, wall)
 
 
 @kernel(f"boolean(float64, float64, float64, float64, {_LAYERS}, boolean)")
@@ -74,7 +74,7 @@ def _hidden(
     confusion: Array,
     by_ring: bool,
 ) -> bool:
-    """Return whether a disk in front, or the ring if it is asked for, hides what lies behind a lens point."""
+    """Return whether a disk in front, or with ``by_ring`` the ring, hides what lies behind a lens point."""
     for k in range(front.shape[0]):
         dx, dy = x + confusion[0] * lens_x - front[k, 0], y + confusion[0] * lens_y - front[k, 1]
         if dx * dx + dy * dy < front[k, 2] * front[k, 2]:
@@ -87,7 +87,7 @@ def _hidden(
 
 @helper
 def _crosses_lens(x: float, y: float, radius: float, confusion: float) -> bool:
-    """Return whether a circle about the origin passes between lens points seen from (x, y)."""
+    """Return whether a circle about the origin is seen through a part of the lens from (x, y)."""
     distance, reach = math.sqrt(x * x + y * y), abs(confusion)
     return reach > _SHARP and abs(distance - radius) < reach
 
@@ -160,7 +160,7 @@ def _mean(
     line_counts: NDArray[np.int64],
     cuts: Array,
 ) -> float:
-    """Return the mean over the lens seen from (x, y); the arrays after ``confusion`` are workspace."""
+    """Return the mean over the lens at (x, y); the arrays after ``confusion`` are workspace."""
     count = 0
     for k in range(front.shape[0] + 2):
         if k < front.shape[0]:
@@ -234,8 +234,8 @@ def _mean(
                     continue
                 across = np.floor(((y if axis == 0 else x) + c * along - wall[0]) / wall[1])
                 # At the line the cell j - 1 ends and the cell j begins; a negative c turns the picture around.
-                before = _wall_cell(j - 1.0, across, wall)
-                step = before - _wall_cell(j, across, wall)
+                before = _wall_value(j - 1.0, across, wall)
+                step = before - _wall_value(j, across, wall)
                 total += (step if c > 0.0 else -step) * 0.5 * place * (cuts[i + 1] - cuts[i])
     return total / math.pi
 

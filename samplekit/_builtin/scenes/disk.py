@@ -1,15 +1,15 @@
 """The disk: 1 inside a circle, 0 outside, with the exact area of its intersection with every pixel.
 
-The usual area (differences of the antiderivative of sqrt(r² - x²) at the four corners) loses everything where a pixel
-is small against the radius or the circle only just enters it. Here a pixel is cut at the centre's coordinates and
-mirrored into the first quadrant, so that the arc falls from left to right. Its crossings with the pixel's sides are
-offsets u, v from the corner nearest to the centre, (a, c):
+The usual area (differences of the antiderivative of sqrt(r² - x²) at the four corners) loses all its digits where a
+pixel is small against the radius, or where the circle only just enters it. Here a pixel is cut at the centre's
+coordinates and mirrored into the first quadrant, so that the arc falls from left to right. Its crossings with the
+pixel's sides are offsets u, v from the corner nearest to the centre, (a, c):
 
     u(y) = sqrt(r² - y²) - a = g(a, y) / (sqrt((r - y)(r + y)) + a),    g(x, y) = r² - x² - y²,
 
-and the area is a rectangle, a trapezoid under the arc's chord and a circular segment: all terms positive. Only g
-cancels: it is evaluated in double-double arithmetic, and where that is not enough as an expansion
-(Shewchuk 1997, "Adaptive precision floating-point arithmetic and fast robust geometric predicates").
+and the area is a rectangle, a trapezoid under the arc's chord and a circular segment: all terms are positive. Only g
+cancels. It is evaluated in double-double arithmetic, and where that is not enough as an expansion (Shewchuk 1997,
+"Adaptive precision floating-point arithmetic and fast robust geometric predicates").
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit import Scene, UsageError
+from samplekit._builtin.scenes.sample_bounds import sample_bounds, square_bounds
 from samplekit.kernels import expansion_sum, helper, kernel, two_difference, two_product, two_sum
 
 if TYPE_CHECKING:
@@ -31,8 +32,8 @@ if TYPE_CHECKING:
     Part = tuple[Pair, Pair, float]
     """Start, end and length of an interval."""
 
-LARGEST = 1e150
-"""Radius and centre stay below this, and a radius above its inverse, so that squares neither overflow nor vanish."""
+SMALLEST = 1e-150
+"""Smallest radius but 0: its square does not underflow."""
 
 # Area of a circular segment: (theta - sin theta) / (theta³ / 6) = 1 - theta²/20 + ..., to 2^-53 for theta <= pi/2.
 _SEGMENT = tuple((-1.0) ** k * 6.0 / math.factorial(2 * k + 3) for k in range(12))
@@ -131,7 +132,7 @@ def _quadrant_mean(x: Part, y: Part, width: float, height: float, radius: float,
 
 @helper
 def _offset(edge: float, centre: float, scale: float) -> Pair:
-    """Return ``(edge - centre) * scale`` exactly, but -2 or 2 for all that lies far outside the circle."""
+    """Return ``(edge - centre) * scale`` exactly, or -2 or 2 far outside the circle."""
     high, low = two_difference(edge, centre)
     high *= scale
     return (high, low * scale) if abs(high) <= 2.0 else (math.copysign(2.0, high), 0.0)
@@ -154,7 +155,7 @@ def _clip(start: Pair, end: Pair, length: float, radius: float) -> Part:
 
 @kernel("void(float64[::1], float64[::1], float64, float64, float64, float64, float64[:,::1])")
 def _fill_means(x: Array, y: Array, cx: float, cy: float, radius: float, scale: float, out: Array) -> None:
-    """Replace every NaN in ``out`` float64[h, w] by its pixel's mean; ``scale``: 2^k that takes r to [1/2, 1)."""
+    """Replace every NaN in ``out`` float64[h, w] by its pixel's mean; ``scale`` is the 2^k that takes r to [1/2, 1)."""
     r = radius * scale
     terms = np.empty(14)
     for j in range(out.shape[0]):
@@ -176,20 +177,6 @@ def _fill_means(x: Array, y: Array, cx: float, cy: float, radius: float, scale: 
             out[j, i] = min(total, 1.0)
 
 
-def _square_bounds(edges: Array, centre: float) -> tuple[Array, Array]:
-    """Bound from below and above the squares ``x * x`` that ``_sums`` meets in every interval: float64[n] each.
-
-    Its every operation is monotone, rounded or not, so the first and the last sample of an interval bound all.
-    The slack is for widths that were rounded otherwise than here.
-    """
-    first = edges[:-1] - centre
-    last = np.maximum(edges[:-1] + np.diff(edges) * (1.0 + 2.0**-50), edges[1:]) - centre
-    near = np.where((first <= 0.0) & (last >= 0.0), 0.0, np.minimum(abs(first), abs(last)))
-    far = np.maximum(abs(first), abs(last))
-    with np.errstate(over="ignore"):
-        return near * near, far * far
-
-
 class Disk(Scene):
     """1 where (x - cx)² + (y - cy)² < radius², else 0.
 
@@ -198,24 +185,21 @@ class Disk(Scene):
     radius
         0 (nothing is inside), or from 1e-150 to 1e150.
     cx, cy
-        Centre, from -1e150 to 1e150. The default lies on no pixel edge and breaks every symmetry.
+        Centre, from -1e150 to 1e150.
 
     Raises
     ------
     UsageError
-        A parameter outside its range, or NaN.
+        The radius is neither 0 nor at least 1e-150.
     """
 
     def __init__(self, radius: float = 0.3, cx: float = 0.4523, cy: float = 0.5317) -> None:
-        if not (radius == 0.0 or 1.0 / LARGEST <= radius <= LARGEST):
-            raise UsageError(f"radius={radius}: expected 0, or a number from {1.0 / LARGEST:g} to {LARGEST:g}")
-        for name, value in (("cx", cx), ("cy", cy)):
-            if not abs(value) <= LARGEST:
-                raise UsageError(f"{name}={value}: expected a number from -{LARGEST:g} to {LARGEST:g}")
+        if 0.0 < radius < SMALLEST:
+            raise UsageError(f"disk: radius={radius}: expected 0, or a number of at least {SMALLEST:g}")
         self.radius, self.cx, self.cy = float(radius), float(cx), float(cy)
 
     def sums(self, tile: Array, boxes: Array, out: Array) -> None:
-        """Count the samples inside."""
+        """Count each pixel's samples inside: see :meth:`Scene.sums`."""
         _sums(tile, boxes, out, self.cx, self.cy, self.radius)
 
     def exact(self, x_edges: Array, y_edges: Array) -> Array:
@@ -232,13 +216,15 @@ class Disk(Scene):
         return means
 
     def constant(self, x_edges: Array, y_edges: Array) -> Array:
-        """Return 1 or 0 where every sample of the pixel gives that in ``sums``, rounding included; NaN elsewhere."""
-        return self._classify(np.asarray(x_edges, np.float64), np.asarray(y_edges, np.float64), 0.0)
+        """Return 1 or 0 where every sample of the pixel gives that in ``sums``, NaN elsewhere: float64[h, w]."""
+        return self._classify(x_edges, y_edges, 0.0)
 
     def _classify(self, x_edges: Array, y_edges: Array, margin: float) -> Array:
         """Return 1 for pixels inside, 0 for pixels outside, NaN for those within ``margin`` of the circle."""
-        near_x, far_x = _square_bounds(x_edges, self.cx)
-        near_y, far_y = _square_bounds(y_edges, self.cy)
+        (near_x, far_x), (near_y, far_y) = (
+            square_bounds(*(place - centre for place in sample_bounds(edges)))
+            for edges, centre in ((x_edges, self.cx), (y_edges, self.cy))
+        )
         squared = self.radius * self.radius
         classes = np.where(far_y[:, None] + far_x < squared * (1.0 - margin), 1.0, np.nan)
         classes[near_y[:, None] + near_x >= squared * (1.0 + margin)] = 0.0

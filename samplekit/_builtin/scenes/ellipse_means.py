@@ -1,10 +1,11 @@
 """The exact area of an ellipse in every pixel, as an integral over its chords.
 
-At height d above the centre the chord reaches from k d - s(d) to k d + s(d), s(d) = m sqrt((H - d)(H + d)): what a
-pixel has of it is the least of four differences, the chord's own length among them, which is never formed by
-subtraction. So a needle's area is right to all digits although its thickness is far below the rounding of its place.
-The integral is taken between the heights where a chord begins or ends on a side of the pixel. There it is smooth but
-for the square root, which the substitution H - d = t² removes near the ellipse's end. Offsets are double-doubles.
+At height d above the centre the chord reaches from k d - s(d) to k d + s(d), with s(d) = m sqrt((H - d)(H + d)). The
+part of it inside a pixel is the least of four differences. One of them is the chord's own length, which is never formed
+by subtraction; so the area of a needle is right to all digits, although its thickness is far below the rounding of its
+place. The range of heights is cut where a chord begins or ends on a side of the pixel. Between the cuts the integrand
+is smooth but for the square root, which the substitution H - d = t² removes near the ellipse's end. Offsets are
+double-doubles.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
     """A double-double."""
 
 _NEAR_THE_END = 0.25
-"""Where a piece is nearer to the ellipse's end than this much of itself, the square root there is substituted away."""
+"""The substitution is made where a piece is nearer to the ellipse's end than this part of its own length."""
 
 
 def ellipse_means(
@@ -41,14 +42,14 @@ def ellipse_means(
     Parameters
     ----------
     x_edges, y_edges
-        float64[w + 1], float64[h + 1].
+        The edges of the pixels: float64[w + 1] and float64[h + 1].
     centre
-        Its x and y.
+        The ellipse's x and y.
     direction
-        Cosine and sine of the longer axis. Their squares need not add up to exactly 1: the ellipse is
+        Cosine c and sine s of the longer axis. Their squares need not add up to exactly 1: the ellipse is
         (c x + s y)² / a² + (c y - s x)² / b² < 1.
     axes
-        Half of the longer and of the shorter.
+        Half of the longer axis, a, and of the shorter, b.
     """
     c, s, a, b = (Fraction(number) for number in (*direction, *axes))
     # A x² + 2 B x y + C y² < 1 with the determinant A C - B² = root²
@@ -68,14 +69,14 @@ def _chord_numbers(along: Fraction, mixed: Fraction, root: Fraction) -> Array:
 
 
 def _square_root(value: Fraction) -> Fraction:
-    """The square root within 2^-120 relative."""
+    """Return the square root within 2^-120 relative."""
     shift = max(0, 130 - (value.numerator.bit_length() - value.denominator.bit_length()) // 2)
     return Fraction(math.isqrt((value.numerator << 2 * shift) // value.denominator), 1 << shift)
 
 
 @helper
 def _root(a: float, a_low: float) -> Pair:
-    """Return the square root of a double-double, 0 for what is not positive."""
+    """Return the square root of a double-double, or 0 if that is not positive."""
     if a <= 0.0:
         return 0.0, 0.0
     high = math.sqrt(a)
@@ -86,7 +87,7 @@ def _root(a: float, a_low: float) -> Pair:
 
 @kernel("void(float64, float64, float64[::1], float64[::1])")
 def _chord(d: float, d_low: float, numbers: Array, ends: Array) -> None:
-    """Write left and right end of the chord at height d as double-doubles, and its length: float64[5]."""
+    """Write the left and the right end of the chord at height d as double-doubles, then its length: float64[5]."""
     above, above_low = dd_add(numbers[0], numbers[1], -d, -d_low)
     below, below_low = dd_add(numbers[0], numbers[1], d, d_low)
     product, product_low = dd_multiply(max(above, 0.0), above_low, max(below, 0.0), below_low)
@@ -100,7 +101,7 @@ def _chord(d: float, d_low: float, numbers: Array, ends: Array) -> None:
 
 @kernel("float64(float64, float64, float64[::1], float64[::1], float64[::1])")
 def _inside(d: float, d_low: float, sides: Array, numbers: Array, ends: Array) -> float:
-    """Return the length of the chord at height d between the sides: left and right as double-doubles, width."""
+    """Return the length of the chord at height d inside ``sides``: left and right as double-doubles, then the width."""
     _chord(d, d_low, numbers, ends)
     from_left = dd_add(ends[2], ends[3], -sides[0], -sides[1])[0]
     to_right = dd_add(sides[2], sides[3], -ends[0], -ends[1])[0]
@@ -110,11 +111,11 @@ def _inside(d: float, d_low: float, sides: Array, numbers: Array, ends: Array) -
 
 @kernel("float64(float64[::1], float64[::1], float64[::1], float64[::1], float64[::1])")
 def _piece(start: Array, stop: Array, sides: Array, numbers: Array, ends: Array) -> float:
-    """Integrate the chords between two heights, double-doubles between which the integrand is smooth."""
+    """Integrate the chords between two heights, given as double-doubles, between which the integrand is smooth."""
     size = dd_add(stop[0], stop[1], -start[0], -start[1])[0]
     to_lower = dd_add(start[0], start[1], numbers[0], numbers[1])[0]
     to_upper = dd_add(numbers[0], numbers[1], -stop[0], -stop[1])[0]
-    # The end of the ellipse that is near, if one is: 0 none, -1 the lower, 1 the upper.
+    # The end of the ellipse that is near: -1 the lower, 1 the upper, 0 none.
     end = 0.0
     if to_lower < _NEAR_THE_END * size:
         end = -1.0
@@ -154,7 +155,7 @@ def _insert(heights: Array, count: int, d: float, d_low: float) -> None:
 
 @kernel("float64(float64[::1], float64[::1], float64[::1], float64[::1], float64[:,::1], float64[::1])")
 def _area(sides: Array, levels: Array, rows: Array, columns: Array, heights: Array, ends: Array) -> float:
-    """Integrate the chords within a pixel: ``sides`` as in ``_inside``, ``levels`` its top and bottom likewise."""
+    """Integrate the chords within a pixel: ``sides`` as in ``_inside``, ``levels`` top and bottom as double-doubles."""
     start, start_low = levels[0], levels[1]
     if dd_add(start, start_low, rows[0], rows[1])[0] < 0.0:
         start, start_low = -rows[0], -rows[1]
@@ -165,7 +166,7 @@ def _area(sides: Array, levels: Array, rows: Array, columns: Array, heights: Arr
         return 0.0
     heights[0, 0], heights[0, 1] = start, start_low
     _insert(heights, 1, stop, stop_low)
-    # The middle, so that no piece has both ends of the ellipse near; and where the integrand is not smooth.
+    # Cuts: the middle, so that no piece is near both ends of the ellipse; and wherever the integrand is not smooth.
     _insert(heights, 2, 0.0, 0.0)
     count = 3
     for side in range(2):
@@ -189,7 +190,7 @@ def _area(sides: Array, levels: Array, rows: Array, columns: Array, heights: Arr
 
 @kernel("UniTuple(float64, 2)(float64, float64, float64[::1], float64[::1], float64[::1])")
 def _reach(top: float, bottom: float, rows: Array, columns: Array, ends: Array) -> Pair:
-    """Return how far the ellipse reaches to the left and to the right between two heights, and a little farther."""
+    """Return bounds of how far the ellipse reaches to the left and to the right between two heights."""
     low, high = max(top, -rows[0]), min(bottom, rows[0])
     _chord(low, 0.0, rows, ends)
     left, right = ends[0], ends[2]

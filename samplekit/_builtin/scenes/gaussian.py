@@ -1,9 +1,9 @@
 """The Gaussian: the smooth integrand, on which samplers reach their best rates of convergence.
 
 Pilleboue, Singh, Coeurjolly, Kazhdan, Ostromoukhov 2015, "Variance analysis for Monte Carlo integration", SIGGRAPH: the
-best case, beside the disk as the worst.
+best case, where the disk is the worst.
 
-The exact mean over a box is the product of two means of exp(-u^2) in units of sigma sqrt(2).
+The exact mean over a box is the product of two means of exp(-u^2), with u in units of sigma sqrt(2).
 """
 
 from __future__ import annotations
@@ -13,57 +13,55 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit import Scene, UsageError
+from samplekit import Scene
 from samplekit.kernels import BLOCK, dd_add, dd_multiply, exp_of_minus, fma, helper, kernel, lane_sum, two_difference
 from samplekit.quadrature import NODES, WEIGHTS
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    Array = NDArray[np.float64]
+
 _SQRT_HALF = 0.7071067811865476
 _SQRT_HALF_LOW = -4.833646656726457e-17
 _HALF_SQRT_PI = 0.886226925452758
 
-_LARGEST_CENTRE = 1e50
-_LARGEST_SCALE = 1e200  # of 1 / (sigma sqrt(2)): beyond it the mean over any pixel underflows
-_LARGEST_SAMPLED_SCALE = 1e100  # so that squares stay finite; beyond it samples see 0, or 1 in the centre itself
-_FAR = 40.0  # exp(-40^2) underflows, with a margin for everything that it is multiplied with
+_LARGEST_SCALE = 1e200  # limit of 1 / (sigma sqrt(2)): beyond it the mean over any pixel underflows
+_LARGEST_SAMPLED_SCALE = 1e100  # keeps squares finite: beyond it a sample's value is 0, or 1 at the centre itself
+_FAR = 40.0  # exp(-40^2) underflows, whatever factor of the means multiplies it
 
 _ALWAYS_0 = 746.0  # exponents from 745.14 on underflow to 0
 _ALWAYS_1 = 2.0**-55  # exponents up to 2^-54 round to 1
 
 
 class Gaussian(Scene):
-    """exp(-|x - c|^2 / (2 sigma^2)), not repeated beyond the unit square.
+    """exp(-|x - c|^2 / (2 sigma^2)), not periodic.
 
     Parameters
     ----------
     sigma
-        Above 0, finite.
+        Standard deviation, at least 1e-150.
     cx, cy
-        The centre, anywhere from -1e50 to 1e50.
+        Centre, from -1e50 to 1e50.
     """
 
     def __init__(self, sigma: float = 0.1, cx: float = 0.4523, cy: float = 0.5317) -> None:
-        if not 0.0 < sigma < math.inf:
-            raise UsageError(f"gaussian: sigma={sigma} must be above 0 and finite")
-        if not (abs(cx) <= _LARGEST_CENTRE and abs(cy) <= _LARGEST_CENTRE):
-            raise UsageError(f"gaussian: cx and cy must be from -{_LARGEST_CENTRE:g} to {_LARGEST_CENTRE:g}")
         self.sigma, self.cx, self.cy = float(sigma), float(cx), float(cy)
         self._sampled_scale = _inverse(self.sigma, _LARGEST_SAMPLED_SCALE)[0]
 
-    def sums(self, tile: NDArray[np.float64], boxes: NDArray[np.float64], out: NDArray[np.float64]) -> None:
-        """Sum the bell over each pixel's samples: see :meth:`Scene.sums`."""
+    def sums(self, tile: Array, boxes: Array, out: Array) -> None:
+        """Sum the Gaussian over each pixel's samples: see :meth:`Scene.sums`."""
         _sums(tile, boxes, self._sampled_scale, self.cx, self.cy, out)
 
-    def exact(self, x_edges: NDArray[np.float64], y_edges: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Integrate over each pixel's box: its mean float64[h, w], within 5e-15 relative, 0 where it underflows."""
-        return np.multiply.outer(_means(y_edges, self.cy, self.sigma), _means(x_edges, self.cx, self.sigma))
+    def exact(self, x_edges: Array, y_edges: Array) -> Array:
+        """Return the mean over each pixel: float64[h, w], within 5e-15 relative, 0 where it underflows."""
+        scale = _inverse(self.sigma, _LARGEST_SCALE)
+        return np.multiply.outer(gaussian_means(y_edges, self.cy, *scale), gaussian_means(x_edges, self.cx, *scale))
 
-    def constant(self, x_edges: NDArray[np.float64], y_edges: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Find the pixels where every sample is exactly 0 or exactly 1; NaN elsewhere: float64[h, w].
+    def constant(self, x_edges: Array, y_edges: Array) -> Array:
+        """Return 0 or 1 where every sample of the pixel rounds to that, NaN elsewhere: float64[h, w].
 
-        Rounding keeps order: the coordinates that the kernel computes lie between those of the edges computed alike.
+        Rounding keeps order: the kernel's coordinates of samples lie between those of the edges, computed alike.
         """
         x_nearest, x_farthest = _distances(x_edges, self.cx, self._sampled_scale)
         y_nearest, y_farthest = _distances(y_edges, self.cy, self._sampled_scale)
@@ -74,12 +72,12 @@ class Gaussian(Scene):
 
 @kernel("void(float64[:,:,::1], float64[:,::1], float64, float64, float64, float64[::1])")
 def _sums(
-    tile: NDArray[np.float64],
-    boxes: NDArray[np.float64],
+    tile: Array,
+    boxes: Array,
     scale: float,
     cx: float,
     cy: float,
-    out: NDArray[np.float64],
+    out: Array,
 ) -> None:
     pixels, _, count = tile.shape
     values = np.empty(BLOCK)
@@ -93,10 +91,8 @@ def _sums(
         out[pixel] = lane_sum(values, count)
 
 
-def _distances(
-    edges: NDArray[np.float64], centre: float, scale: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Bound the distance of a sample from the centre, as the kernel computes it: least and most, float64[m] each."""
+def _distances(edges: Array, centre: float, scale: float) -> tuple[Array, Array]:
+    """Bound the scaled distance of samples from the centre, as the kernel computes it: least, most, float64[m] each."""
     left = (edges[:-1] - centre) * scale
     right = left + np.diff(edges) * scale
     return np.maximum(np.maximum(left, -right), 0.0), np.maximum(np.abs(left), np.abs(right))
@@ -110,16 +106,11 @@ def _inverse(sigma: float, largest: float) -> tuple[float, float]:
     return scale, (fma(-scale, sigma, _SQRT_HALF) + _SQRT_HALF_LOW) / sigma
 
 
-def _means(edges: NDArray[np.float64], centre: float, sigma: float) -> NDArray[np.float64]:
-    """Average the bell in one dimension between neighbouring edges: float64[m] for float64[m + 1]."""
-    return bell_means(edges, centre, *_inverse(sigma, _LARGEST_SCALE))
-
-
-def bell_means(edges: NDArray[np.float64], centre: float, scale: float, scale_low: float = 0.0) -> NDArray[np.float64]:
+def gaussian_means(edges: Array, centre: float, scale: float, scale_low: float = 0.0) -> Array:
     """Average exp(-(scale (x - centre))^2) between neighbouring edges: float64[m] for float64[m + 1].
 
-    Where it varies little by Gauss and Legendre's rule; elsewhere by error functions, scaled ones on a flank, where
-    those of both ends would cancel (NIST DLMF 7.2.1 to 7.2.3). ``scale`` is a double-double.
+    Where the function varies little, by Gauss and Legendre's rule. Elsewhere by error functions (NIST DLMF 7.2.1 to
+    7.2.3): scaled ones on a flank, where those of both ends would cancel. ``scale`` is a double-double.
     """
     edges = np.ascontiguousarray(edges)
     means = np.empty(edges.size - 1)
@@ -144,13 +135,13 @@ def bell_means(edges: NDArray[np.float64], centre: float, scale: float, scale_lo
 
 @helper
 def _offset(edge: float, centre: float, scale: float, scale_low: float) -> tuple[float, float]:
-    """Return (edge - centre) * scale in double-double: exp(-a^2) is 900 times as sensitive as a at 30 sigma."""
+    """Return (edge - centre) * scale as a double-double: at 30 sigma exp(-a^2) multiplies errors of a by 900."""
     offset, low = two_difference(edge, centre)
     return dd_multiply(offset, low, scale, scale_low)
 
 
 @helper
-def _bell(offset: float, low: float) -> float:
+def _gaussian(offset: float, low: float) -> float:
     """Return exp(-(offset + low)^2)."""
     square, square_low = dd_multiply(offset, low, offset, low)
     return math.exp(-square) * (1.0 - square_low)
@@ -158,26 +149,25 @@ def _bell(offset: float, low: float) -> float:
 
 @kernel("void(float64[::1], float64, float64, float64, float64[::1], float64[::1])")
 def _heights(
-    edges: NDArray[np.float64],
+    edges: Array,
     centre: float,
     scale: float,
     scale_low: float,
-    ends: NDArray[np.float64],
-    heights: NDArray[np.float64],
+    ends: Array,
+    heights: Array,
 ) -> None:
     for i in range(edges.size):
         offset, low = _offset(edges[i], centre, scale, scale_low)
         ends[i] = min(max(offset, -_FAR), _FAR)
-        heights[i] = _bell(offset, low) if abs(offset) < _FAR else 0.0
+        heights[i] = _gaussian(offset, low) if abs(offset) < _FAR else 0.0
 
 
 @kernel("void(float64[::1], float64, float64, float64, float64[::1])")
-def _smooth_means(
-    edges: NDArray[np.float64], centre: float, scale: float, scale_low: float, means: NDArray[np.float64]
-) -> None:
-    """Average by 24 nodes where exp(-u^2) varies little, 0 where it underflows, NaN elsewhere.
+def _smooth_means(edges: Array, centre: float, scale: float, scale_low: float, means: Array) -> None:
+    """Average by 24 nodes where exp(-u^2) varies little; write 0 where it underflows, NaN elsewhere.
 
-    About the middle c of an interval u^2 = c^2 + 2 c d + d^2, whose second term changes its sign with d: nodes pair up.
+    At the distance d from the middle c of an interval u^2 = c^2 + 2 c d + d^2. The second term changes its sign with d,
+    so the nodes c + d and c - d are summed as pairs.
     """
     for i in range(means.size):
         left, left_low = _offset(edges[i], centre, scale, scale_low)
@@ -193,4 +183,4 @@ def _smooth_means(
             for node in range(NODES.size):
                 d = 0.5 * width * NODES[node]
                 mean += WEIGHTS[node] * math.exp(-d * d) * math.cosh(2.0 * middle * d)
-            means[i] = _bell(middle, low) * mean
+            means[i] = _gaussian(middle, low) * mean

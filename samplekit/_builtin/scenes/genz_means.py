@@ -1,13 +1,13 @@
 """Exact means of Genz's integrands over a pixel and all further dimensions: products of means in one dimension.
 
-The corner peak is no product. Its mean, a sum of 2^d alternating terms in the textbook, loses every digit for small
-coefficients and many dimensions. With t^-(d+1) = 1/d! ∫ s^d exp(-s t) ds it is one integral of positive terms,
+The corner peak is no product. The textbook's sum of 2^d alternating terms loses every digit for small coefficients and
+many dimensions. With t^-(d+1) = 1/d! ∫ s^d exp(-s t) ds the mean is one integral of positive terms,
 
     1/d! ∫ s^d exp(-s (1 + sum a_i l_i)) prod phi(s a_i h_i) ds,    phi(z) = (1 - exp(-z)) / z,
 
-over a box of lower corner l and sides h, which the trapezoidal rule in log s takes to all digits: the integrand is
-analytic in a strip and vanishes at both ends (Trefethen, Weideman 2014, "The exponentially convergent trapezoidal
-rule", SIAM Review 56).
+over a box with the lower corner l and the sides h. The trapezoidal rule in log s gives all its digits, since the
+integrand is analytic in a strip and vanishes at both ends (Trefethen, Weideman 2014, "The exponentially convergent
+trapezoidal rule", SIAM Review 56).
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from samplekit._builtin.scenes.gaussian import gaussian_means
 from samplekit.kernels import (
     cosine_of_turns,
     dd_add,
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
     Sides = tuple[Array, Array]
-    """Left and right ends of neighbouring intervals, float64[n] each; of points both are one array."""
+    """Left and right ends of neighbouring intervals, float64[n] each; for points both are the same array."""
 
 _STEP = 0.125
 _LOGS = np.arange(-72.0, 5.0, _STEP)
@@ -51,9 +52,10 @@ def genz_means(family: str, a: Array, u: float, x: Sides, y: Sides) -> Array:
     Parameters
     ----------
     family, a, u
-        As in :class:`samplekit._builtin.scenes.oscillating.Oscillating`.
+        The family, its coefficients float64[d] and its place: see
+        :class:`samplekit._builtin.scenes.oscillating.Oscillating`.
     x, y
-        Left and right, top and bottom ends of the columns and rows.
+        Ends of the columns, left and right, and of the rows, top and bottom.
     """
     if family == "oscillatory":
         return _waves(a, u, x, y)
@@ -72,13 +74,11 @@ def genz_means(family: str, a: Array, u: float, x: Sides, y: Sides) -> Array:
 def _along(code: int, a: float, u: float, sides: Sides) -> Array:
     """Average the factor of one dimension over intervals: float64[n]."""
     if code == _KERNELS["gaussian"]:
-        from samplekit._builtin.scenes.gaussian import bell_means
-
         left, right = sides
         if left is right:
             values: Array = np.exp(-np.square(a * (left - u)))
             return values
-        return bell_means(np.append(left, right[-1:]), u, a)
+        return gaussian_means(np.append(left, right[-1:]), u, a)
     means = np.empty(sides[0].size)
     _factor_means(code, a, u, *sides, means)
     return means
@@ -100,7 +100,7 @@ def _factor_means(code: int, a: float, u: float, left: Array, right: Array, out:
         width = right[i] - left[i]
         if code == 1:
             first, last = a * (left[i] - u), a * (right[i] - u)
-            # The difference of two arcus tangents as one angle.
+            # One angle in place of the difference of two arctangents.
             angle = math.atan2(a * width, 1.0 + first * last)
             out[i] = angle / (a * width) if a * width > 0.0 else 1.0 / (1.0 + first * first)
         elif code == 4:
@@ -121,7 +121,7 @@ def _factor_means(code: int, a: float, u: float, left: Array, right: Array, out:
 
 @kernel("void(float64, float64[::1], float64[::1], float64[::1], float64[::1])")
 def _wave_means(a: float, left: Array, right: Array, turns: Array, lengths: Array) -> None:
-    """Average exp(2 pi i a x) over intervals: its phase in turns, and its real factor sinc(a (right - left))."""
+    """Average exp(2 pi i a x) over intervals: write the phase in turns, and the real factor sinc(a (right - left))."""
     for i in range(left.size):
         total, low = two_sum(left[i], right[i])
         phase, phase_low = dd_scale(0.5 * total, 0.5 * low, a)

@@ -1,9 +1,9 @@
-"""What a point of the motion-blur scene shows on average over lens and time.
+"""The mean over lens and time at a point of the motion-blur scene.
 
-The lens is a disk about the point, and what a disk covers of it is the area of two circles' intersection, a function
-a(d) of the distance of their centres. Over time that distance changes along a straight line: the mean of a is an
-integral between the places where the circles begin to touch and to contain each other; without a lens it is the length
-of a chord.
+Seen from the point, the lens is a disk about it, and a moving disk covers the intersection of two circles: its area is
+a function a(d) of the distance d of their centres. Over time one centre moves along a straight line. The mean of a is
+an integral between the places where the circles begin to touch and to contain each other; without a lens it is the
+length of a chord.
 """
 
 from __future__ import annotations
@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit._builtin.scenes.motion_blur import DIRECTION
 from samplekit.kernels import helper, kernel
 
 if TYPE_CHECKING:
@@ -21,9 +20,9 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-# 12 nodes are within 1e-7 here; the 24 of samplekit.quadrature._gauss take twice as long.
+# 12 nodes are within 1e-7 here; the 24 of samplekit.quadrature take twice as long.
 _NODES, _WEIGHTS = (np.ascontiguousarray(part) for part in np.polynomial.legendre.leggauss(12))
-_SHARP = 1e-12  # A lens or a way shorter than this is none: it changes the mean over a pixel by less than 1e-9.
+_SHARP = 1e-12  # Smaller lenses and shorter ways count as none: they change the mean over a pixel by less than 1e-9.
 
 
 @helper
@@ -54,7 +53,7 @@ def _covered(distance: float, radius: float, reach: float) -> float:
 
 @kernel("float64(float64, float64, float64, float64, float64)")
 def _ring_part(low: float, high: float, across: float, radius: float, reach: float) -> float:
-    """Integrate the covered share between two places; nodes crowd at the ends, where it starts like x^1.5."""
+    """Integrate the covered share between two places; nodes crowd at the ends, where it grows like x^1.5."""
     if high <= low:
         return 0.0
     total = 0.0
@@ -68,7 +67,7 @@ def _ring_part(low: float, high: float, across: float, radius: float, reach: flo
 
 @kernel("float64(float64, float64, float64, float64, float64)")
 def _shown(along: float, across: float, radius: float, reach: float, way: float) -> float:
-    """Return the share of lens and time in which a disk shows, from a point in the frame of its motion."""
+    """Return the share of lens and time in which a disk is seen, from a point in the frame of the disk's motion."""
     if way <= _SHARP:
         distance = math.sqrt(along * along + across * across)
         if reach <= _SHARP:
@@ -92,8 +91,10 @@ def _shown(along: float, across: float, radius: float, reach: float, way: float)
     return total / way
 
 
-@kernel("void(float64[:,::1], float64[:,::1], float64[::1], float64, float64, float64[::1])")
-def means(points: Array, disks: Array, board: Array, reach: float, shutter: float, out: Array) -> None:
+@kernel("void(float64[:,::1], float64[:,::1], float64[::1], float64[::1], float64, float64, float64[::1])")
+def lens_and_time_means(
+    points: Array, disks: Array, direction: Array, board: Array, reach: float, shutter: float, out: Array
+) -> None:
     """Write the mean over lens and time at each of the points float64[2, M] of the picture."""
     for i in range(out.size):
         x, y = points[0, i], points[1, i]
@@ -103,7 +104,7 @@ def means(points: Array, disks: Array, board: Array, reach: float, shutter: floa
         value = below
         for k in range(disks.shape[0]):
             dx, dy = x - disks[k, 0], y - disks[k, 1]
-            along, across = dx * DIRECTION[0] + dy * DIRECTION[1], dy * DIRECTION[0] - dx * DIRECTION[1]
+            along, across = dx * direction[0] + dy * direction[1], dy * direction[0] - dx * direction[1]
             share = _shown(along, across, disks[k, 2], reach, shutter * abs(disks[k, 4]))
             value += share * (disks[k, 3] - below)
         out[i] = value

@@ -1,7 +1,7 @@
-"""Any scene on a pedestal: what is left of its digits when every value has a large number added to it.
+"""Any scene on a pedestal: how many digits of a scene are left if a large number is added to every value.
 
-The spacing of float64 numbers is 1.5e-8 at 1e8 and 0.125 at 1e15: the values are rounded to that before anything is
-summed, and no sum can bring back what they lost.
+The spacing of float64 numbers is 1.5e-8 at 1e8 and 0.125 at 1e15. The values are rounded to that before they are
+summed, and no way of summing brings the lost digits back.
 """
 
 from __future__ import annotations
@@ -22,8 +22,6 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-LARGEST = 1e290
-
 
 class Offset(Scene):
     """The pedestal plus another scene, rounded at every sample.
@@ -31,31 +29,29 @@ class Offset(Scene):
     Parameters
     ----------
     scene
-        As on the command line, its options joined by ``+``: ``disk``, ``disk:radius=0.2+cx=0.5``.
+        The other scene as on the command line, its options joined by ``+``: ``disk``, ``disk:radius=0.2+cx=0.5``.
     pedestal
-        -1e290 to 1e290.
+        The number that is added, -1e290 to 1e290.
 
     Raises
     ------
     UsageError
-        A parameter outside its range, or NaN; a scene that is unknown, or itself an offset, or seen at its centres.
+        The scene is unknown, is itself an offset, or is sampled at the centres of pixels.
     """
 
     def __init__(self, scene: str = "gaussian", pedestal: float = 1e8) -> None:
-        if not abs(pedestal) <= LARGEST:
-            raise UsageError(f"offset: pedestal={pedestal} must be from {-LARGEST:g} to {LARGEST:g}")
         if scene.partition(":")[0].rpartition("/")[2] == "offset":
-            raise UsageError(f"offset: scene={scene}: two pedestals are one, their sum")
+            raise UsageError(f"offset: scene={scene}: expected no other offset: add the two pedestals")
         self.scene = samplekit.scene(re.sub(r"\+(?=[A-Za-z])", ",", scene))
         if self.scene.at_centre:
             raise UsageError(
-                f"offset: scene={scene}: write pixel-filter=center for the whole, not for the scene within"
+                f"offset: scene={scene}: give pixel-filter=center to offset itself, not to the scene inside it"
             )
         self.pedestal = float(pedestal)
         self.finite_variance = self.scene.finite_variance
 
     def notes(self) -> list[str]:
-        """What the scene says, and how coarse the numbers are on the pedestal."""
+        """Return the notes of the scene, and one on the spacing of numbers at the pedestal."""
         spacing = float(np.spacing(abs(self.pedestal)))
         return [
             *self.scene.notes(),
@@ -63,7 +59,7 @@ class Offset(Scene):
         ]
 
     def dimensions(self) -> dict[str, int]:
-        """Those of the scene."""
+        """Return the dimensions of the scene."""
         return dict(self.scene.needs)
 
     def sums(self, tile: Array, boxes: Array, out: Array) -> None:
@@ -71,20 +67,20 @@ class Offset(Scene):
         row_sums(self.scene.values(tile, boxes) + self.pedestal, out)
 
     def parts(self, tile: Array, boxes: Array) -> Sequence[Array]:
-        """The scene's own values and the pedestal: their sum before it is rounded."""
+        """Return the scene's own values and the pedestal, whose sum is the value before it is rounded."""
         values = self.scene.values(tile, boxes)
         return values, np.full_like(values, self.pedestal)
 
     def exact(self, x_edges: Array, y_edges: Array) -> Array:
-        """The scene's own reference on the pedestal, rounded once: float64[h, w]."""
+        """Return the scene's own reference plus the pedestal, rounded once: float64[h, w]."""
         reference = self.scene.reference(x_edges, y_edges)
         self.reference_error = reference.error
         return self.pedestal + reference.image
 
     def exact_at(self, x: Array, y: Array) -> Array:
-        """The scene's means at points on the pedestal, rounded once: float64[h, w]."""
+        """Return the scene's means at points plus the pedestal, rounded once: float64[h, w]."""
         return self.pedestal + self.scene.reference_at(x, y).image
 
     def constant(self, x_edges: Array, y_edges: Array) -> Array:
-        """Where the scene is constant it is so on the pedestal as well."""
+        """Return the value where the scene itself is constant, NaN elsewhere: float64[h, w]."""
         return self.scene.constant(x_edges, y_edges) + self.pedestal

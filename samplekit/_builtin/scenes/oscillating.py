@@ -1,8 +1,8 @@
-"""Genz's test integrands: six families in 1 to 12 dimensions, from gentle to as hard as one likes.
+"""Genz's test integrands: six families in 1 to 12 dimensions, of any difficulty.
 
 Genz 1984, "Testing multidimensional integration routines", in Tools, Methods and Languages for Scientific and
-Engineering Computation. Each is divided by its largest value, so that no difficulty overflows. With the coefficients
-a_i = difficulty (2 i - 1) / d², whose sum is the difficulty, and one place u for all dimensions:
+Engineering Computation. Each integrand is divided by its largest value, so that it never overflows. With the
+coefficients a_i = difficulty (2 i - 1) / d², whose sum is the difficulty, and one place u for all dimensions:
 
     oscillatory     cos(2 pi u + sum a_i x_i)
     product-peak    product 1 / (1 + (a_i (x_i - u))²)
@@ -11,8 +11,8 @@ a_i = difficulty (2 i - 1) / d², whose sum is the difficulty, and one place u f
     continuous      exp(-sum a_i |x_i - u|)
     discontinuous   exp(sum a_i (x_i - v_i)), v = (u, u, 1, ..., 1); 0 where x_1 > u or x_2 > u
 
-The picture's x and y are x_1 and x_2, all others are dimensions of the purpose ``further``: no part of a pixel, a lens
-or a time, but more of the same, as the bounces of a path are. In one dimension the picture does not depend on y.
+The picture's x and y are x_1 and x_2. All others are dimensions of the purpose ``further``: like the bounces of a path
+they are not part of a pixel, a lens or a time. In one dimension the picture does not depend on y.
 """
 
 from __future__ import annotations
@@ -22,17 +22,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit import Scene, UsageError
+from samplekit import Scene
+from samplekit._builtin.declarations.scenes import GENZ_FAMILIES
 from samplekit.kernels import BLOCK, cosine_of_turns, exp_of_minus, fma, kernel, lane_sum
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
-
-FAMILIES = ("oscillatory", "product-peak", "corner-peak", "gaussian", "continuous", "discontinuous")
-MOST_DIMENSIONS = 12
-EASIEST, HARDEST = 1e-9, 1e12
 
 
 @kernel("void(float64[:,:,::1], float64[:,::1], int64, float64[::1], float64, float64[::1])")
@@ -82,59 +79,47 @@ def _sums(tile: Array, boxes: Array, family: int, a: Array, u: float, out: Array
 class Oscillating(Scene):
     """One of Genz's integrands.
 
-    The coefficients are float64 numbers, rounded from their formula: they are the scene, for samples and reference
-    alike. Those of ``oscillatory`` are in turns, a_i / 2 pi.
+    The coefficients are rounded to float64 numbers, which define the integrand for samples and reference alike. Those
+    of ``oscillatory`` are in turns, a_i / 2 pi.
 
     Parameters
     ----------
     family
-        One of ``FAMILIES``.
+        Name of the family.
     d
-        Dimensions, 1 to 12.
+        Number of dimensions, 1 to 12.
     difficulty
         The sum of the coefficients, 1e-9 to 1e12.
     u
-        Place of the peak, kink or step in every dimension, and the phase in turns: 0 to 1.
-
-    Raises
-    ------
-    UsageError
-        A parameter outside its range, or NaN.
+        Place of the peak, kink or step in every dimension, or the phase in turns: 0 to 1.
     """
 
     def __init__(self, family: str = "oscillatory", d: int = 2, difficulty: float = 10.0, u: float = 0.4523) -> None:
-        if family not in FAMILIES:
-            raise UsageError(f"oscillating: family={family}: expected {', '.join(FAMILIES)}")
-        if not (1 <= d <= MOST_DIMENSIONS and d == int(d)):
-            raise UsageError(f"oscillating: d={d} must be a whole number from 1 to {MOST_DIMENSIONS}")
-        if not EASIEST <= difficulty <= HARDEST:
-            raise UsageError(f"oscillating: difficulty={difficulty} must be from {EASIEST:g} to {HARDEST:g}")
-        if not 0.0 <= u <= 1.0:
-            raise UsageError(f"oscillating: u={u} must be from 0 to 1")
         self.family, self.u = family, float(u)
         self.coefficients = difficulty * (2.0 * np.arange(1, d + 1) - 1.0) / d**2
         if family == "oscillatory":
             self.coefficients /= 2.0 * math.pi
 
     def dimensions(self) -> dict[str, int]:
-        """Two for the pixel, the others as ``further``."""
+        """Return two dimensions for the pixel, the others as ``further``."""
         d = self.coefficients.size
         return {"pixel": 2, "further": d - 2} if d > 2 else {"pixel": 2}
 
     def sums(self, tile: Array, boxes: Array, out: Array) -> None:
         """Sum the integrand over each pixel's samples: see :meth:`Scene.sums`."""
-        _sums(tile, boxes, FAMILIES.index(self.family), self.coefficients, self.u, out)
+        _sums(tile, boxes, GENZ_FAMILIES.index(self.family), self.coefficients, self.u, out)
 
     def exact(self, x_edges: Array, y_edges: Array) -> Array:
-        """Integrate over each pixel's box and all further dimensions: float64[h, w].
+        """Return the mean over each pixel and all further dimensions: float64[h, w].
 
-        ``oscillatory`` within 2e-15 absolute, the others within 5e-14 relative where the mean is a normal number.
+        It is within 2e-15 absolute for ``oscillatory``, for the others within 5e-14 relative where it is a normal
+        number.
         """
         x, y = np.array(x_edges, np.float64), np.array(y_edges, np.float64)
         return self._means((x[:-1].copy(), x[1:].copy()), (y[:-1].copy(), y[1:].copy()))
 
     def exact_at(self, x: Array, y: Array) -> Array:
-        """Integrate over all further dimensions at the points x by y: float64[h, w], as exactly as ``exact``."""
+        """Return the mean over all further dimensions at the points x by y: float64[h, w], as exact as ``exact``."""
         x, y = np.array(x, np.float64), np.array(y, np.float64)
         return self._means((x, x), (y, y))
 
@@ -144,7 +129,7 @@ class Oscillating(Scene):
         return genz_means(self.family, self.coefficients, self.u, x, y)
 
     def constant(self, x_edges: Array, y_edges: Array) -> Array:
-        """Find the pixels beyond the discontinuity, which are 0; NaN elsewhere: float64[h, w]."""
+        """Return 0 for the pixels beyond the discontinuity, NaN elsewhere: float64[h, w]."""
         known = np.full((y_edges.size - 1, x_edges.size - 1), np.nan)
         if self.family == "discontinuous":
             known[:, x_edges[:-1] > self.u] = 0.0

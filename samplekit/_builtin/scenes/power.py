@@ -1,8 +1,8 @@
-"""The power: |x|^-a, unbounded at the left edge of the picture, where the variance of an estimate may not exist.
+"""The power |x|^-a, unbounded at the left edge of the picture, with an infinite variance for a >= 1/2.
 
-The square of |x|^-a has a finite integral for a < 1/2 alone: from there on the variance is infinite, the error of
-random points falls as N^-(1 - a) instead of N^-1/2, and a standard error means nothing
-(Owen 2006, "Halton sequences avoid the origin", SIAM Review 48: such integrands, and what sequences do to them).
+The square of |x|^-a has a finite integral for a < 1/2 only. From there on the variance of an estimate is infinite, the
+error of random points falls as N^-(1 - a) instead of N^-1/2, and a standard error means nothing. Owen 2006, "Halton
+sequences avoid the origin", SIAM Review 48, analyses such integrands.
 """
 
 from __future__ import annotations
@@ -11,16 +11,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit import Scene, UsageError
+from samplekit import Scene
 from samplekit.kernels import BLOCK, fma, kernel, lane_sum
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
-
-STEEPEST = 0.99
-_FINITE_VARIANCE_BELOW = 0.5
 
 
 @kernel("void(float64[:,:,::1], float64[:,::1], float64, float64[::1])")
@@ -54,22 +51,15 @@ class Power(Scene):
     Parameters
     ----------
     a
-        0 to 0.99. The variance is finite below 0.5 alone.
-
-    Raises
-    ------
-    UsageError
-        A parameter outside its range, or NaN.
+        The exponent, 0 to 0.99. The variance is finite for a < 0.5.
     """
 
     def __init__(self, a: float = 0.25) -> None:
-        if not 0.0 <= a <= STEEPEST:
-            raise UsageError(f"power: a={a} must be from 0 to {STEEPEST}")
         self.a = float(a)
-        self.finite_variance = self.a < _FINITE_VARIANCE_BELOW
+        self.finite_variance = self.a < 0.5
 
     def notes(self) -> list[str]:
-        """Say where the variance is infinite."""
+        """Return a warning if the variance is infinite."""
         if self.finite_variance:
             return []
         what = f"the variance of |x|^-{self.a:g} is infinite (it is finite for a < 0.5)"
@@ -80,7 +70,7 @@ class Power(Scene):
         _sums(tile, boxes, self.a, out)
 
     def exact(self, x_edges: Array, y_edges: Array) -> Array:
-        """Integrate over each pixel's box: its mean float64[h, w], within 4e-15 relative, wherever the edges lie."""
+        """Return the mean over each pixel: float64[h, w], within 4e-15 relative, wherever the edges lie."""
         x = np.asarray(x_edges, np.float64)
         left, right = x[:-1], x[1:]
         near, far = np.minimum(abs(left), abs(right)), np.maximum(abs(left), abs(right))
@@ -91,5 +81,5 @@ class Power(Scene):
         return np.broadcast_to(means, (y_edges.size - 1, means.size)).copy()
 
     def constant(self, x_edges: Array, y_edges: Array) -> Array:
-        """Every pixel is constant where a = 0, none elsewhere: float64[h, w]."""
+        """Return 1 where a = 0, else NaN: float64[h, w]."""
         return np.full((y_edges.size - 1, x_edges.size - 1), 1.0 if self.a == 0.0 else np.nan)

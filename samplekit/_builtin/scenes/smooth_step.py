@@ -1,8 +1,8 @@
 """The step with a width: a sigmoid across the line, 1 / (1 + exp(d / width)), from a slow ramp to a sheer edge.
 
-Over a box d is a sum of two uniform numbers, whose density is a trapezoid. The mean is an integral of one dimension of
-density times sigmoid, in units of the width, by Gauss's rule between the corners of the trapezoid: every term is
-positive, and nothing cancels however the width compares with the box.
+Over a box d is a sum of two uniform numbers, whose density is a trapezoid. The mean is a one-dimensional integral of
+density times sigmoid, in units of the width, by Gauss's rule between the corners of the trapezoid. Every term is
+positive, so that nothing cancels, whether the width is small or large against the box.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-ALWAYS_0 = 746.0  # 1 / (1 + exp(v)) underflows to 0 from 745.14 on
-ALWAYS_1 = -38.0  # and rounds to 1 before -36.74
-_FULL = -40.0  # 1 but for 4e-18
-_TAIL = 45.0  # what the integral has beyond this, past where it begins or past 0, is below 2e-18 of it
+_ALWAYS_0 = 746.0  # 1 / (1 + exp(v)) underflows to 0 from 745.14 on
+_ALWAYS_1 = -38.0  # and rounds to 1 before -36.74
+_FULL = -40.0  # the sigmoid is 1 within 4e-18
+_TAIL = 45.0  # beyond this distance from its start, or from 0, the integral has less than 2e-18 of its value
 _FAR_BEFORE = -100.0
 _PANEL = 6.0  # the sigmoid's poles are at +-i pi: 24 nodes are right to 1e-18
 
@@ -40,7 +40,7 @@ def smooth_sums(tile: Array, boxes: Array, cosine: float, sine: float, offset: f
     values = np.empty(BLOCK)
     steepness = 1.0 / width
     for pixel in range(tile.shape[0]):
-        # From the corner, so that a sample's distance is rounded in units of the pixel and not of the picture.
+        # Distances are computed from the corner, so that they are rounded in units of the pixel, not of the picture.
         along, along_low = two_product(cosine, boxes[0, pixel])
         down, down_low = two_product(sine, boxes[2, pixel])
         corner, corner_low = dd_add(along, along_low, down, down_low)
@@ -56,8 +56,8 @@ def smooth_sums(tile: Array, boxes: Array, cosine: float, sine: float, offset: f
 def _panel(start: float, end: float, first: float, last: float, shift: float, shorter: float) -> float:
     """Integrate density times sigmoid over [start, end], without the density's factor 1 / longer.
 
-    In units of the width. The trapezoid reaches from ``first`` to ``last`` with flanks as long as ``shorter``; the
-    sigmoid is that of the place plus ``shift``.
+    Places are in units of the width. The trapezoid reaches from ``first`` to ``last`` with flanks of the length
+    ``shorter``; the sigmoid is evaluated at the place plus ``shift``.
     """
     middle, half = 0.5 * (start + end), 0.5 * (end - start)
     total = 0.0
@@ -77,12 +77,12 @@ def _mean(below: float, above: float, p: float, q: float, width: float) -> float
     """Return the mean over a box whose corners are ``below`` before the line and ``above`` past it, p + q apart."""
     shorter, longer = min(p, q) / width, max(p, q) / width
     before, after = -below / width, above / width
-    if before >= ALWAYS_0:
+    if before >= _ALWAYS_0:
         return 0.0
     if after <= _FULL:
         return 1.0
-    # Places are counted from the box's first corner, so that flanks keep their digits; from the line where the corner
-    # is far before it, so that the sigmoid keeps its own: the box is then as large as that distance.
+    # Places are counted from the box's first corner, so that the flanks keep their digits. Where that corner is far
+    # before the line they are counted from the line, so that the sigmoid keeps its digits: the box is then as large.
     first, last, shift = 0.0, shorter + longer, before
     if before < _FAR_BEFORE:
         first, last, shift = before, after, 0.0
@@ -97,7 +97,7 @@ def _mean(below: float, above: float, p: float, q: float, width: float) -> float
             there = first_kink
         if here < second_kink < there:
             there = second_kink
-        # Where the sigmoid is 1 the density alone is left, and one panel is exact.
+        # Where the sigmoid is 1, the integrand is the density, and one panel is exact.
         panels = 1.0 if there <= full else np.ceil((there - here) / _PANEL)
         step = (there - here) / panels
         for panel in range(int(panels)):
@@ -118,7 +118,7 @@ def smooth_means(below: Array, above: Array, p: Array, q: Array, width: float, o
     p, q
         float64[w], float64[h]: extent of the pixels along the normal, from their width and from their height.
     width
-        Of the sigmoid, above 0.
+        Width of the sigmoid, above 0.
     """
     for j in range(out.shape[0]):
         for i in range(out.shape[1]):
@@ -126,11 +126,11 @@ def smooth_means(below: Array, above: Array, p: Array, q: Array, width: float, o
 
 
 def smooth_constant(low: Array, high: Array, offset: float, width: float) -> Array:
-    """Return 1 or 0 where every sample's sigmoid rounds to that, NaN elsewhere.
+    """Return 1 or 0 where the sigmoid of every sample rounds to that, NaN elsewhere.
 
-    ``low`` and ``high`` bound cos x + sin y over each pixel; the samples' own rounding is bounded by the slack.
+    ``low`` and ``high`` bound cos(angle) x + sin(angle) y over each pixel; the slack bounds the rounding of samples.
     """
     slack = 2.0**-48 * (np.maximum(abs(low), abs(high)) + abs(offset)) + 1e-300
     with np.errstate(over="ignore"):
         least, most = (low - offset - slack) / width, (high - offset + slack) / width
-    return np.where(least > ALWAYS_0, 0.0, np.where(most < ALWAYS_1, 1.0, np.nan))
+    return np.where(least > _ALWAYS_0, 0.0, np.where(most < _ALWAYS_1, 1.0, np.nan))

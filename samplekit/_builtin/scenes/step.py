@@ -1,18 +1,18 @@
-"""The step: 1 on one side of a straight line, 0 on the other, sheer or over a width; with its exact mean over a pixel.
+"""The step: 1 on one side of a line and 0 on the other, sheer or as a sigmoid, with its exact mean over a pixel.
 
-The part of a box below a line is the distribution function of a sum of two uniform numbers: quadratic, linear,
-quadratic in the line's distance from the box's nearest corner. That distance cancels where pixels are small against
-their place, so it is a difference of double-doubles, and areas above one half are one less the opposite corner's.
+The part of a box below a line is the distribution function of a sum of two uniform numbers: quadratic, linear, then
+quadratic in the line's distance from the box's nearest corner. That distance cancels where a pixel is small against its
+place, so it is a difference of double-doubles. A part above one half is computed from the opposite corner.
 """
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from samplekit import Scene, UsageError
+from samplekit._builtin.scenes.sample_bounds import product_bounds, sample_bounds
 from samplekit._builtin.scenes.smooth_step import smooth_constant, smooth_means, smooth_sums
 from samplekit.kernels import dd_add, direction, helper, kernel, two_product
 
@@ -50,7 +50,7 @@ def _corner(distance: float, p: float, q: float) -> float:
 def _distances(x: Array, y: Array, cosine: float, sine: float, offset: float, below: Array, above: Array) -> None:
     """Write how far the line is past each pixel's first corner, and the last corner past the line: float64[h, w]."""
     rows, columns = below.shape
-    # How far each vertical edge goes towards the line, as a double-double.
+    # The share of each vertical edge in the distance, as a double-double.
     taken, taken_low = np.empty(columns + 1), np.empty(columns + 1)
     for i in range(columns + 1):
         taken[i], taken_low[i] = two_product(-cosine, x[i])
@@ -69,7 +69,7 @@ def _distances(x: Array, y: Array, cosine: float, sine: float, offset: float, be
 
 @kernel("void(float64[:,::1], float64[:,::1], float64[::1], float64[::1], float64[:,::1])")
 def _means(below: Array, above: Array, p: Array, q: Array, out: Array) -> None:
-    """Write the part of each pixel on the side of ones into ``out`` float64[h, w]; p, q: extents along the normal."""
+    """Write the part of each pixel on the side of ones: float64[h, w]; p and q are its extents along the normal."""
     for j in range(out.shape[0]):
         for i in range(out.shape[1]):
             if above[j, i] <= 0.0:
@@ -80,52 +80,37 @@ def _means(below: Array, above: Array, p: Array, q: Array, out: Array) -> None:
                 out[j, i] = 1.0 - _corner(above[j, i], p[i], q[j])
 
 
-def _product_bounds(edges: Array, factor: float) -> tuple[Array, Array]:
-    """Bound from below and above the products ``factor * x`` that ``_sums`` meets in every interval: float64[n] each.
-
-    Its every operation is monotone, rounded or not, so the first and the last sample of an interval bound all.
-    The slack is for widths that were rounded otherwise than here.
-    """
-    first = edges[:-1] * factor
-    last = np.maximum(edges[:-1] + np.diff(edges) * (1.0 + 2.0**-50), edges[1:]) * factor
-    return np.minimum(first, last), np.maximum(first, last)
-
-
 class Step(Scene):
     """1 where cos(angle) x + sin(angle) y < offset, else 0; with a width the sigmoid 1 / (1 + exp(d / width)).
 
-    d = cos(angle) x + sin(angle) y - offset is the distance from the line; the slope there is 1 / (4 width).
+    Here d = cos(angle) x + sin(angle) y - offset is the distance from the line; the slope there is 1 / (4 width).
 
-    The half-plane is that of the float64 numbers ``cosine``, ``sine`` and ``offset``: they are the scene, for samples
-    and reference alike, and differ from those of the true angle by at most 2e-16.
+    The float64 numbers ``cosine``, ``sine`` and ``offset`` define the line, for samples and reference alike; they
+    differ from those of the true angle by at most 2e-16.
 
     Parameters
     ----------
     angle
-        Direction of the line's normal in degrees, towards the zeros; 90 looks down the image. Any finite number.
+        Direction of the line's normal in degrees, towards the zeros; 90 points down the image. Any finite number.
     offset
-        Distance of the line from the origin along the normal. Any number from -1e150 to 1e150.
+        Distance of the line from the origin along the normal, from -1e150 to 1e150.
     width
-        0 (sheer), or from 1e-150 to 1e150.
+        Width of the sigmoid: 0 (sheer), or from 1e-150 to 1e150.
 
     Raises
     ------
     UsageError
-        A parameter outside its range, or NaN.
+        The width is neither 0 nor at least 1e-150.
     """
 
     def __init__(self, angle: float = 0.0, offset: float = 0.5, width: float = 0.0) -> None:
-        if not math.isfinite(angle):
-            raise UsageError(f"angle={angle}: expected a finite number")
-        if not abs(offset) <= 1e150:
-            raise UsageError(f"offset={offset}: expected a number from -1e150 to 1e150")
-        if not (width == 0.0 or 1e-150 <= width <= 1e150):
-            raise UsageError(f"width={width}: expected 0, or a number from 1e-150 to 1e150")
+        if 0.0 < width < 1e-150:
+            raise UsageError(f"step: width={width}: expected 0, or a number of at least 1e-150")
         self.cosine, self.sine = direction(angle)
         self.offset, self.width = float(offset), float(width)
 
     def sums(self, tile: Array, boxes: Array, out: Array) -> None:
-        """Count the samples on the side of ones, or sum the sigmoid."""
+        """Count each pixel's samples on the side of ones, or sum the sigmoid: see :meth:`Scene.sums`."""
         if self.width > 0.0:
             smooth_sums(tile, boxes, self.cosine, self.sine, self.offset, self.width, out)
         else:
@@ -147,9 +132,9 @@ class Step(Scene):
         return means
 
     def constant(self, x_edges: Array, y_edges: Array) -> Array:
-        """Return 1 or 0 where every sample of the pixel gives that in ``sums``, rounding included; NaN elsewhere."""
-        low_x, high_x = _product_bounds(np.asarray(x_edges, np.float64), self.cosine)
-        low_y, high_y = _product_bounds(np.asarray(y_edges, np.float64), self.sine)
+        """Return 1 or 0 where every sample of the pixel gives that in ``sums``, NaN elsewhere: float64[h, w]."""
+        low_x, high_x = product_bounds(self.cosine, sample_bounds(x_edges))
+        low_y, high_y = product_bounds(self.sine, sample_bounds(y_edges))
         if self.width > 0.0:
             return smooth_constant(low_y[:, None] + low_x, high_y[:, None] + high_x, self.offset, self.width)
         known = np.where(high_y[:, None] + high_x < self.offset, 1.0, np.nan)

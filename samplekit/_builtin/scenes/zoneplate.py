@@ -2,8 +2,8 @@
 
 Mitchell and Netravali 1988, "Reconstruction filters in computer graphics", SIGGRAPH: the test image of reconstruction.
 
-The exact mean over a box is separable: with M(x0, x1) the mean of exp(i k x^2), a Fresnel integral, it is
-1/2 + 1/2 Re(M(x0, x1) M(y0, y1)). An image needs w + h such factors, not w * h.
+The exact mean over a box is separable: 1/2 + 1/2 Re(M(x0, x1) M(y0, y1)), where M(x0, x1) is the mean of exp(i k x^2),
+a Fresnel integral. An image needs w + h such factors, not w * h.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit import Scene, UsageError
+from samplekit import Scene
 from samplekit.kernels import (
     BLOCK,
     cosine_of_turns,
@@ -31,12 +31,13 @@ from samplekit.quadrature import NODES, WEIGHTS
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    Array = NDArray[np.float64]
+
 _TAU = 6.283185307179586
 _TAU_LOW = 2.4492935982947064e-16
 _PER_TAU = 0.15915494309189535
 _PER_TAU_LOW = -9.839338337591243e-18
 
-_LARGEST = 1e100  # k |x - c|^2 stays finite for every k and c up to here
 _MOST_TURNS_OF_ONE = 1e-9  # cos(2 pi t) > 1 - 2^-55 for |t| up to here: rounded it is 1
 
 
@@ -46,31 +47,27 @@ class ZonePlate(Scene):
     Parameters
     ----------
     k
-        0 to 1e100, in radians: at distance r the rings pass at k r / pi cycles per unit.
+        The phase in radians at distance 1, from 0 to 1e100: at distance r there are k r / pi rings per unit of length.
     cx, cy
-        The centre, anywhere from -1e100 to 1e100.
+        Centre, from -1e100 to 1e100: k |x - c|^2 stays finite.
     """
 
     def __init__(self, k: float = 1024.0, cx: float = 0.0, cy: float = 0.0) -> None:
-        if not (0.0 <= k <= _LARGEST and abs(cx) <= _LARGEST and abs(cy) <= _LARGEST):
-            raise UsageError(
-                f"zoneplate: k must be from 0 to {_LARGEST:g}, cx and cy from -{_LARGEST:g} to {_LARGEST:g}"
-            )
         self.k, self.cx, self.cy = float(k), float(cx), float(cy)
 
-    def sums(self, tile: NDArray[np.float64], boxes: NDArray[np.float64], out: NDArray[np.float64]) -> None:
+    def sums(self, tile: Array, boxes: Array, out: Array) -> None:
         """Sum the rings over each pixel's samples: see :meth:`Scene.sums`."""
         _sums(tile, boxes, self.k * _PER_TAU, self.cx, self.cy, out)
 
-    def exact(self, x_edges: NDArray[np.float64], y_edges: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Integrate over each pixel's box: its mean float64[h, w], within 5e-16 for k up to 1e12."""
+    def exact(self, x_edges: Array, y_edges: Array) -> Array:
+        """Return the mean over each pixel: float64[h, w], within 5e-16 for k up to 1e12."""
         x_means = _means(x_edges, self.cx, self.k)
         y_means = _means(y_edges, self.cy, self.k)
         real = np.multiply.outer(y_means.real, x_means.real) - np.multiply.outer(y_means.imag, x_means.imag)
         return 0.5 + 0.5 * real
 
-    def constant(self, x_edges: NDArray[np.float64], y_edges: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Find the pixels where the phase is so small that its cosine rounds to 1; NaN elsewhere: float64[h, w]."""
+    def constant(self, x_edges: Array, y_edges: Array) -> Array:
+        """Return 1 where the phase is so small that its cosine rounds to 1, NaN elsewhere: float64[h, w]."""
         x = np.abs(x_edges - self.cx)
         y = np.abs(y_edges - self.cy)
         x_farthest = np.maximum(x[:-1], x[1:])
@@ -81,12 +78,12 @@ class ZonePlate(Scene):
 
 @kernel("void(float64[:,:,::1], float64[:,::1], float64, float64, float64, float64[::1])")
 def _sums(
-    tile: NDArray[np.float64],
-    boxes: NDArray[np.float64],
+    tile: Array,
+    boxes: Array,
     turns: float,
     cx: float,
     cy: float,
-    out: NDArray[np.float64],
+    out: Array,
 ) -> None:
     pixels, _, count = tile.shape
     values = np.empty(BLOCK)
@@ -100,11 +97,11 @@ def _sums(
         out[pixel] = 0.5 * count + 0.5 * lane_sum(values, count)
 
 
-def _means(edges: NDArray[np.float64], centre: float, k: float) -> NDArray[np.complex128]:
+def _means(edges: Array, centre: float, k: float) -> NDArray[np.complex128]:
     """Average exp(i k (x - centre)^2) between neighbouring edges, within 4e-16: complex128[m] for float64[m + 1].
 
-    Few oscillations: Gauss and Legendre's rule. Many: the difference of two tails, which are then so small against
-    the width that their difference loses nothing.
+    Where the integrand oscillates little, by Gauss and Legendre's rule; elsewhere by the difference of two tails, which
+    are so small against the width that their difference loses no digits.
     """
     edges = np.ascontiguousarray(edges)
     means = np.empty(edges.size - 1, np.complex128)
@@ -125,9 +122,9 @@ def _means(edges: NDArray[np.float64], centre: float, k: float) -> NDArray[np.co
 
 @helper
 def _phase(k: float, offset: float, low: float) -> complex:
-    """Return exp(i k (offset + low)^2), reduced in double-double.
+    """Return exp(i k (offset + low)^2), whose phase is reduced as a double-double.
 
-    At k = 1e12 the rounding of an offset to float64 alone would turn the phase by 1e-4.
+    At k = 1e12 the rounding of an offset to one float64 would change the phase by 1e-4.
     """
     square, square_low = dd_multiply(offset, low, offset, low)
     turns, turns_low = dd_multiply(square, square_low, _PER_TAU, _PER_TAU_LOW)
@@ -141,10 +138,10 @@ def _phase(k: float, offset: float, low: float) -> complex:
 
 @kernel("void(float64[::1], float64, float64, float64[::1], complex128[::1])")
 def _edge_phases(
-    edges: NDArray[np.float64],
+    edges: Array,
     centre: float,
     k: float,
-    offsets: NDArray[np.float64],
+    offsets: Array,
     phases: NDArray[np.complex128],
 ) -> None:
     for i in range(edges.size):
@@ -154,10 +151,11 @@ def _edge_phases(
 
 
 @kernel("void(float64[::1], float64, float64, complex128[::1])")
-def _smooth_means(edges: NDArray[np.float64], centre: float, k: float, means: NDArray[np.complex128]) -> None:
-    """Average by 24 nodes where exp(i k x^2) oscillates little; NaN elsewhere.
+def _smooth_means(edges: Array, centre: float, k: float, means: NDArray[np.complex128]) -> None:
+    """Average by 24 nodes where exp(i k x^2) oscillates little; write NaN elsewhere.
 
-    About the middle c of an interval x^2 = c^2 + 2 c d + d^2, whose second term changes its sign with d: nodes pair up.
+    At the distance d from the middle c of an interval x^2 = c^2 + 2 c d + d^2. The second term changes its sign with d,
+    so the nodes c + d and c - d are summed as pairs.
     """
     for i in range(means.size):
         left, left_low = two_difference(edges[i], centre)
@@ -176,21 +174,22 @@ def _smooth_means(edges: NDArray[np.float64], centre: float, k: float, means: ND
         means[i] = _phase(k, middle, low) * complex(real, imaginary)
 
 
-def _tails(k: float, offsets: NDArray[np.float64], phases: NDArray[np.complex128]) -> NDArray[np.complex128]:
+def _tails(k: float, offsets: Array, phases: NDArray[np.complex128]) -> NDArray[np.complex128]:
     """Integrate exp(i k x^2) from each offset >= 0 to infinity.
 
-    That is exp(i k x^2) times Faddeeva's function of (1 + i) sqrt(k / 2) x: it varies slowly (NIST DLMF 7.5.8, 7.5.9).
+    That is exp(i k x^2) times a slowly varying factor, Faddeeva's function of (1 + i) sqrt(k / 2) x (NIST DLMF 7.5.8,
+    7.5.9).
     """
     slow = _faddeeva(math.sqrt(k / 2) * offsets)
     tails: NDArray[np.complex128] = (math.sqrt(math.pi / (2 * k)) * (0.5 + 0.5j)) * (phases * slow)
     return tails
 
 
-def _faddeeva(x: NDArray[np.float64]) -> NDArray[np.complex128]:
+def _faddeeva(x: Array) -> NDArray[np.complex128]:
     """Return w(z) = exp(-z^2) erfc(-i z) on the diagonal z = (1 + i) x, x >= 0.
 
-    Within 3e-16 relative where x^2 > 6, by Laplace's continued fraction (NIST DLMF 7.9.3): SciPy's is up to 1.3e-14 off
-    from there to x^2 = 50. Nearer to 0 SciPy's is within 3e-15.
+    Where x^2 > 6, by Laplace's continued fraction (NIST DLMF 7.9.3), within 3e-16 relative: SciPy's function is up to
+    1.3e-14 off for x^2 from 6 to 50. Nearer to 0, SciPy's, which is within 3e-15 there.
     """
     z = x * (1 + 1j)
     far = x * x > 6

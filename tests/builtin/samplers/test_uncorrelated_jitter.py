@@ -5,7 +5,7 @@ import pytest
 
 import samplekit
 from samplekit._bases.realizations import Realizations
-from samplekit._builtin.samplers.uncorrelated_jitter import block_sizes
+from samplekit._builtin.samplers.grid import block_sizes
 from samplekit._specs.counts import grid_sides
 
 REALIZATIONS = 100

@@ -7,18 +7,6 @@ import pytest
 from samplekit._builtin.scenes.bilinear import Bilinear
 
 
-def boxes_of(x_edges, y_edges):
-    left, top = np.meshgrid(x_edges[:-1], y_edges[:-1])
-    width, height = np.meshgrid(np.diff(x_edges), np.diff(y_edges))
-    return np.ascontiguousarray([left.ravel(), width.ravel(), top.ravel(), height.ravel()])
-
-
-def sums(scene, tile, boxes):
-    out = np.full(tile.shape[0], np.nan)
-    scene.sums(tile, boxes, out)
-    return out
-
-
 def identity_means(edges):
     """Means of x in rational arithmetic, from its integral x^2 / 2."""
     places = [Fraction(edge) for edge in edges.tolist()]
@@ -38,26 +26,13 @@ def test_exact_against_rational_arithmetic():
 
 
 @pytest.mark.parametrize("count", [1, 7, 64, 1024])
-def test_sums_against_numpy(count):
+def test_sums_against_numpy(count, boxes_of, sums):
     edges = np.arange(6) / 5
     boxes = boxes_of(edges, edges)
     tile = np.random.default_rng(count).random((25, 2, count))
     x = boxes[0][:, None] + tile[:, 0] * boxes[1][:, None]
     y = boxes[2][:, None] + tile[:, 1] * boxes[3][:, None]
     np.testing.assert_allclose(sums(Bilinear(), tile, boxes), (x * y).sum(axis=1), rtol=1e-12)
-
-
-def test_sums_are_the_same_bits_in_any_tile():
-    edges = np.arange(8) / 7
-    boxes = boxes_of(edges, edges)
-    tile = np.random.default_rng(3).random((49, 2, 53))
-    whole = sums(Bilinear(), tile, boxes)
-    for size in (1, 3, 16):
-        parts = [
-            sums(Bilinear(), tile[i : i + size], np.ascontiguousarray(boxes[:, i : i + size]))
-            for i in range(0, 49, size)
-        ]
-        assert np.array_equal(np.concatenate(parts), whole)
 
 
 def test_nothing_is_claimed_constant():

@@ -4,21 +4,6 @@ import numpy as np
 import pytest
 
 from samplekit._builtin.scenes.checker import Checker
-from samplekit._errors import UsageError
-
-LAST = 1 - 2.0**-53
-
-
-def boxes_of(x_edges, y_edges):
-    left, top = np.meshgrid(x_edges[:-1], y_edges[:-1])
-    width, height = np.meshgrid(np.diff(x_edges), np.diff(y_edges))
-    return np.ascontiguousarray([left.ravel(), width.ravel(), top.ravel(), height.ravel()])
-
-
-def sums(scene, tile, boxes):
-    out = np.full(tile.shape[0], np.nan)
-    scene.sums(tile, boxes, out)
-    return out
 
 
 def square_wave_means(edges, cells):
@@ -60,19 +45,15 @@ def test_pixels_that_fit_into_cells_are_constant_and_equal_the_reference(cells, 
 
 
 @pytest.mark.parametrize(("cells", "pixels"), [(8, 64), (3, 33), (7, 35), (49, 49), (7, 32), (5, 31), (20, 8), (1, 3)])
-def test_constant_pixels_sum_to_their_value(cells, pixels):
-    edges = np.arange(pixels + 1) / pixels
-    scene = Checker(cells)
-    constant = scene.constant(edges, edges).ravel()
-    tile = np.random.default_rng(4).random((pixels**2, 2, 32))
-    tile[:, 0, :4], tile[:, 1, :4] = [0, LAST, 0, LAST], [0, 0, LAST, LAST]
+def test_constant_pixels_give_that_value_at_every_sample(cells, pixels, constant_pixels):
+    constant, sampled = constant_pixels(Checker(cells), pixels)
     known = np.isfinite(constant)
     assert known.any() == (cells <= pixels)
-    assert np.array_equal(sums(scene, tile, boxes_of(edges, edges))[known], 32 * constant[known])
+    assert np.array_equal(sampled[known], constant[known])
 
 
 @pytest.mark.parametrize("cells", [1, 3, 8, 49, 1000])
-def test_cells_begin_at_the_float_nearest_to_their_edge(cells):
+def test_cells_begin_at_the_float_nearest_to_their_edge(cells, sums):
     j = np.arange(cells)
     tile = np.zeros((cells, 2, 1))
     tile[:, 0, 0] = j / cells
@@ -84,7 +65,7 @@ def test_cells_begin_at_the_float_nearest_to_their_edge(cells):
 
 @pytest.mark.parametrize("count", [1, 7, 64, 1024])
 @pytest.mark.parametrize("cells", [8, 37])
-def test_sums_against_numpy(count, cells):
+def test_sums_against_numpy(count, cells, boxes_of, sums):
     edges = np.arange(6) / 5
     boxes = boxes_of(edges, edges)
     tile = np.random.default_rng(count).random((25, 2, count))
@@ -92,22 +73,3 @@ def test_sums_against_numpy(count, cells):
     y = boxes[2][:, None] + tile[:, 1] * boxes[3][:, None]
     expected = ((np.floor(cells * x) + np.floor(cells * y)) % 2 == 0).sum(axis=1)
     assert np.array_equal(sums(Checker(cells), tile, boxes), expected)
-
-
-def test_sums_are_the_same_bits_in_any_tile():
-    edges = np.arange(8) / 7
-    boxes = boxes_of(edges, edges)
-    tile = np.random.default_rng(3).random((49, 2, 53))
-    whole = sums(Checker(11), tile, boxes)
-    for size in (1, 3, 16):
-        parts = [
-            sums(Checker(11), tile[i : i + size], np.ascontiguousarray(boxes[:, i : i + size]))
-            for i in range(0, 49, size)
-        ]
-        assert np.array_equal(np.concatenate(parts), whole)
-
-
-@pytest.mark.parametrize("cells", [0, -1, 2**20 + 1, 2.5])
-def test_refuses_what_is_no_number_of_cells(cells):
-    with pytest.raises(UsageError, match="checker"):
-        Checker(cells)

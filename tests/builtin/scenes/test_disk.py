@@ -1,17 +1,12 @@
 import itertools
 import math
-import os
-import subprocess
-import sys
 
 import mpmath
 import numpy as np
 import pytest
 
 from samplekit._builtin.scenes.disk import Disk
-from samplekit._errors import UsageError
 
-LAST = 1.0 - 2.0**-53
 BOXES = 250
 
 
@@ -195,24 +190,6 @@ def test_no_box_gives_nan():
             assert ((means >= 0) & (means <= 1)).all()
 
 
-@pytest.mark.parametrize("radius", [-0.1, math.nan, math.inf, 1e200, 1e-200])
-def test_a_radius_out_of_range_is_refused(radius):
-    with pytest.raises(UsageError, match="radius"):
-        Disk(radius=radius)
-
-
-@pytest.mark.parametrize("centre", [{"cx": math.nan}, {"cy": -math.inf}])
-def test_a_centre_out_of_range_is_refused(centre):
-    with pytest.raises(UsageError, match=next(iter(centre))):
-        Disk(**centre)
-
-
-def boxes_of(x_edges, y_edges):
-    x, y = np.meshgrid(np.arange(x_edges.size - 1), np.arange(y_edges.size - 1))
-    x, y = x.ravel(), y.ravel()
-    return np.array([x_edges[x], np.diff(x_edges)[x], y_edges[y], np.diff(y_edges)[y]])
-
-
 @pytest.mark.parametrize("count", [1, 3, 16, 64, 1024])
 def test_sums_count_the_samples_inside(count):
     random = np.random.default_rng(22)
@@ -237,19 +214,10 @@ def test_sums_count_the_samples_inside(count):
         (Disk(1e9 + 0.5, 1e9, 0.3), 100),
     ],
 )
-def test_constant_pixels_give_that_value_at_every_sample(disk, size):
-    edges = np.arange(size + 1) / size
-    constant = disk.constant(edges, edges).ravel()
-    random = np.random.default_rng(23)
-    special = np.array([0.0, 2.0**-53, 0.5, LAST])
-    corners = np.stack(np.meshgrid(special, special)).reshape(2, -1)
-    tile = np.empty((constant.size, 2, 24))
-    tile[:, :, :16] = corners
-    tile[:, :, 16:] = random.random((constant.size, 2, 8))
-    out = np.empty(constant.size)
-    disk.sums(tile, boxes_of(edges, edges), out)
+def test_constant_pixels_give_that_value_at_every_sample(disk, size, constant_pixels):
+    constant, sampled = constant_pixels(disk, size)
     known = ~np.isnan(constant)
-    np.testing.assert_array_equal(out[known] / 24, constant[known])
+    np.testing.assert_array_equal(sampled[known], constant[known])
 
 
 def test_few_pixels_of_an_image_are_left_to_sample():
@@ -258,28 +226,3 @@ def test_few_pixels_of_an_image_are_left_to_sample():
     assert np.isnan(constant).mean() < 0.01
     known = ~np.isnan(constant)
     np.testing.assert_array_equal(constant[known], Disk().exact(edges, edges)[known])
-
-
-NUMBERS = """
-import numpy as np
-from samplekit._builtin.scenes.disk import Disk
-random = np.random.default_rng(24)
-edges = np.arange(25) / 24
-out = np.empty(8)
-Disk().sums(random.random((8, 2, 16)), random.random((4, 8)), out)
-print(Disk().exact(edges, edges).tobytes().hex(), out.tobytes().hex())
-"""
-
-
-def test_numbers_are_the_same_without_compiling():
-    compiled, interpreted = (
-        subprocess.run(
-            [sys.executable, "-c", NUMBERS],
-            env={**os.environ, "NUMBA_DISABLE_JIT": disabled},
-            capture_output=True,
-            text=True,
-            check=True,
-        ).stdout
-        for disabled in ("0", "1")
-    )
-    assert compiled == interpreted

@@ -6,21 +6,6 @@ import numpy as np
 import pytest
 
 from samplekit._builtin.scenes.gaussian import Gaussian
-from samplekit._errors import UsageError
-
-LAST = 1 - 2.0**-53
-
-
-def boxes_of(x_edges, y_edges):
-    left, top = np.meshgrid(x_edges[:-1], y_edges[:-1])
-    width, height = np.meshgrid(np.diff(x_edges), np.diff(y_edges))
-    return np.ascontiguousarray([left.ravel(), width.ravel(), top.ravel(), height.ravel()])
-
-
-def sums(scene, tile, boxes):
-    out = np.full(tile.shape[0], np.nan)
-    scene.sums(tile, boxes, out)
-    return out
 
 
 def normal_means(edges, centre, sigma):
@@ -74,7 +59,7 @@ def test_exact_over_pixels(sigma):
 
 @pytest.mark.parametrize("sigma", [5e-324, 1e-308, 1e-200, 1e-100, 1e100, 1e308])
 @pytest.mark.parametrize("centre", [0.5, 0.4523, 1e50])
-def test_extreme_widths_of_the_bell_underflow_or_fill_the_image(sigma, centre):
+def test_extreme_widths_of_the_bell_underflow_or_fill_the_image(sigma, centre, boxes_of, sums):
     edges = np.arange(5) / 4
     scene = Gaussian(sigma, centre, centre)
     exact, constant = scene.exact(edges, edges), scene.constant(edges, edges)
@@ -85,15 +70,8 @@ def test_extreme_widths_of_the_bell_underflow_or_fill_the_image(sigma, centre):
     assert np.all(np.isnan(constant) | (constant == expected))
 
 
-def test_exact_of_a_crop_is_the_crop_of_the_exact():
-    edges = np.arange(129) / 128
-    for sigma in (0.1, 1e-3):
-        scene = Gaussian(sigma)
-        assert np.array_equal(scene.exact(edges[30:71], edges[13:100]), scene.exact(edges, edges)[13:99, 30:70])
-
-
 @pytest.mark.parametrize("count", [1, 7, 64, 1024])
-def test_sums_against_numpy(count):
+def test_sums_against_numpy(count, boxes_of, sums):
     rng = np.random.default_rng(count)
     edges = np.arange(6) / 5
     boxes = boxes_of(edges, edges)
@@ -104,32 +82,15 @@ def test_sums_against_numpy(count):
     np.testing.assert_allclose(sums(Gaussian(), tile, boxes), expected, rtol=1e-12)
 
 
-def test_sums_are_the_same_bits_in_any_tile():
-    edges = np.arange(8) / 7
-    boxes = boxes_of(edges, edges)
-    tile = np.random.default_rng(3).random((49, 2, 53))
-    whole = sums(Gaussian(), tile, boxes)
-    for size in (1, 3, 16):
-        parts = [
-            sums(Gaussian(), tile[i : i + size], np.ascontiguousarray(boxes[:, i : i + size]))
-            for i in range(0, 49, size)
-        ]
-        assert np.array_equal(np.concatenate(parts), whole)
-
-
 @pytest.mark.parametrize(
     ("sigma", "value"), [(1e-12, 0.0), (1e-3, 0.0), (0.015, 0.0), (2e7, 1.0), (8e7, 1.0), (2e8, 1.0), (1e12, 1.0)]
 )
-def test_constant_pixels_sum_to_their_value(sigma, value):
-    edges = np.arange(17) / 16
-    scene = Gaussian(sigma)
-    constant = scene.constant(edges, edges).ravel()
-    tile = np.random.default_rng(4).random((256, 2, 16))
-    tile[:, 0, :4], tile[:, 1, :4] = [0, LAST, 0, LAST], [0, 0, LAST, LAST]
+def test_constant_pixels_give_that_value_at_every_sample(sigma, value, constant_pixels):
+    constant, sampled = constant_pixels(Gaussian(sigma), 16)
     known = np.isfinite(constant)
     assert known.any()
     assert np.all(constant[known] == value)
-    assert np.array_equal(sums(scene, tile, boxes_of(edges, edges))[known], 16 * constant[known])
+    assert np.array_equal(sampled[known], constant[known])
 
 
 def test_pixels_that_only_underflow_are_constant():
@@ -140,11 +101,3 @@ def test_pixels_that_only_underflow_are_constant():
     constant = scene.constant(edges, edges)
     assert np.isnan(constant[radii < 0.38]).all()
     assert np.all(constant[radii > 0.01 * math.sqrt(2 * 746) + 1 / 256] == 0.0)
-
-
-@pytest.mark.parametrize(
-    "options", [{"sigma": 0.0}, {"sigma": -1.0}, {"sigma": np.nan}, {"sigma": np.inf}, {"cx": 1e51}]
-)
-def test_refuses_what_is_no_bell(options):
-    with pytest.raises(UsageError, match="gaussian"):
-        Gaussian(**options)

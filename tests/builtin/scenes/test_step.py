@@ -1,8 +1,5 @@
 import itertools
 import math
-import os
-import subprocess
-import sys
 from fractions import Fraction
 
 import mpmath
@@ -11,9 +8,7 @@ import pytest
 from hypothesis import given, settings, strategies
 
 from samplekit._builtin.scenes.step import Step
-from samplekit._errors import UsageError
 
-LAST = 1.0 - 2.0**-53
 BOXES = 200
 
 
@@ -122,18 +117,6 @@ def test_the_diagonal_halves_its_pixels():
     np.testing.assert_array_equal(means, np.tri(16, k=-1) + np.eye(16) / 2)
 
 
-@pytest.mark.parametrize("options", [{"angle": math.nan}, {"angle": math.inf}, {"offset": math.nan}, {"offset": 1e200}])
-def test_options_out_of_range_are_refused(options):
-    with pytest.raises(UsageError, match=next(iter(options))):
-        Step(**options)
-
-
-def boxes_of(x_edges, y_edges):
-    x, y = np.meshgrid(np.arange(x_edges.size - 1), np.arange(y_edges.size - 1))
-    x, y = x.ravel(), y.ravel()
-    return np.array([x_edges[x], np.diff(x_edges)[x], y_edges[y], np.diff(y_edges)[y]])
-
-
 @pytest.mark.parametrize("count", [1, 3, 16, 64, 1024])
 def test_sums_count_the_samples_on_the_side_of_ones(count):
     random = np.random.default_rng(31)
@@ -152,44 +135,11 @@ def test_sums_count_the_samples_on_the_side_of_ones(count):
     ("angle", "offset"),
     [(0.0, 0.5), (90.0, 0.5), (180.0, -0.25), (-45.0, 0.0), (45.0, 0.75), (1e-9, 0.5), (200.0, -0.6), (1e6, 0.1)],
 )
-def test_constant_pixels_give_that_value_at_every_sample(angle, offset, size):
+def test_constant_pixels_give_that_value_at_every_sample(angle, offset, size, constant_pixels):
     step = Step(angle, offset)
     edges = np.arange(size + 1) / size
-    constant = step.constant(edges, edges).ravel()
-    random = np.random.default_rng(32)
-    special = np.array([0.0, 2.0**-53, 0.5, LAST])
-    tile = np.empty((constant.size, 2, 24))
-    tile[:, :, :16] = np.stack(np.meshgrid(special, special)).reshape(2, -1)
-    tile[:, :, 16:] = random.random((constant.size, 2, 8))
-    out = np.empty(constant.size)
-    step.sums(tile, boxes_of(edges, edges), out)
+    constant, sampled = constant_pixels(step, size)
     known = ~np.isnan(constant)
-    np.testing.assert_array_equal(out[known] / 24, constant[known])
+    np.testing.assert_array_equal(sampled[known], constant[known])
     assert known.mean() > 1 - 3 / size
     np.testing.assert_allclose(step.exact(edges, edges).ravel()[known], constant[known], rtol=0, atol=1e-13)
-
-
-NUMBERS = """
-import numpy as np
-from samplekit._builtin.scenes.step import Step
-random = np.random.default_rng(33)
-edges = np.arange(25) / 24
-out = np.empty(8)
-step = Step(33.0, 0.7)
-step.sums(random.random((8, 2, 16)), random.random((4, 8)), out)
-print(step.exact(edges, edges).tobytes().hex(), out.tobytes().hex())
-"""
-
-
-def test_numbers_are_the_same_without_compiling():
-    compiled, interpreted = (
-        subprocess.run(
-            [sys.executable, "-c", NUMBERS],
-            env={**os.environ, "NUMBA_DISABLE_JIT": disabled},
-            capture_output=True,
-            text=True,
-            check=True,
-        ).stdout
-        for disabled in ("0", "1")
-    )
-    assert compiled == interpreted
