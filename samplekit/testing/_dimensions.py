@@ -11,14 +11,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.testing._result import CheckFailed, NotApplicable, check
+from samplekit.testing._result import CheckFailed, NotApplicable, conformance_check
 from samplekit.testing._statistics import chi_square_threshold, normal_threshold
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from samplekit._specs import SamplerSpec
-    from samplekit.testing._subject import Subject
+    from samplekit.testing._subject import Array, SamplerSubject
 
 _DIMS, _QUICK_DIMS = 8, 4
 _COUNT = 4096
@@ -35,8 +33,8 @@ def _has_pairs(spec: SamplerSpec) -> str:
     return "it has one dimension" if spec.dimensions[1] == 1 else ""
 
 
-@check("across-dimensions", 14, tolerance="family-wise 1e-3: about 7 / sqrt(n)", requires=_has_pairs)
-def check_across_dimensions(subject: Subject) -> None:
+@conformance_check("across-dimensions", 14, tolerance="family-wise 1e-3: about 7 / sqrt(n)", requires=_has_pairs)
+def check_across_dimensions(subject: SamplerSubject) -> None:
     """Two dimensions of a set are correlated little more than random ones, in every set and on average."""
     dims = subject.most_dims(_QUICK_DIMS if subject.quick else _DIMS)
     randomized = subject.spec.randomized
@@ -76,7 +74,7 @@ def check_across_dimensions(subject: Subject) -> None:
             )
 
 
-def pair_correlations(values: NDArray[np.float64]) -> NDArray[np.float64]:
+def pair_correlations(values: Array) -> Array:
     """Pearson's correlation of every pair of dimensions of ``values`` float64[R, D, N]: float64[R, pairs]."""
     centred = values - values.mean(axis=2, keepdims=True)
     spread = np.sqrt((centred**2).mean(axis=2, keepdims=True))

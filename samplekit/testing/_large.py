@@ -8,47 +8,38 @@ import numpy as np
 
 from samplekit._bases.realizations import Realizations
 from samplekit._specs import Net
-from samplekit.testing._declared import dims_of
-from samplekit.testing._nets import judge_net
-from samplekit.testing._prefix import judge_part
-from samplekit.testing._range import judge_range, outside
-from samplekit.testing._result import CheckFailed, CounterExample, NotApplicable, check
+from samplekit.testing._judge import judge_equal, judge_promise
+from samplekit.testing._range import judge_range
+from samplekit.testing._result import CheckFailed, NotApplicable, conformance_check
 
 if TYPE_CHECKING:
-    from samplekit.testing._subject import Subject
+    from samplekit.testing._subject import SamplerSubject
 
-PLACES = (2**16, 2**31 - 1, 2**32, 2**40)
+_PLACES = (2**16, 2**31 - 1, 2**32, 2**40)
 _POINTS = 16
-EXTREMES = (0, 1, 255, 256, 2**16 + 1, 2**31 - 1, 2**32 - 1)
+_COORDINATES = (0, 1, 255, 256, 2**16 + 1, 2**31 - 1, 2**32 - 1)
 
 
-def _counts(subject: Subject, dims: int) -> list[int]:
-    """Return declared counts just above each place, and the largest one."""
-    most = subject.spec.largest_index + 1
-    wanted = [n for place in PLACES for n in (place + _POINTS, 2 * place, place)] + [2**30, 2**20, most]
-    return sorted({n for n in wanted if 2**16 <= n <= most and subject.spec.counts.allows(n, dims)})
-
-
-@check("large-index", 16)
-def check_large_index(subject: Subject) -> None:
+@conformance_check("large-index", 16)
+def check_large_index(subject: SamplerSubject) -> None:
     """Points at indices about 2^16, 2^31, 2^32 and 2^40, as far as declared, are right and not those of small ones."""
     if not subject.sampler.streams:
         raise NotApplicable("it makes sets as a whole: large indices are large sets")
-    dims = dims_of(subject.spec, 2)
-    counts = _counts(subject, dims)
+    dims, most = subject.dims(2), subject.spec.largest_index + 1
+    # Declared counts just above each place, and the largest one.
+    wanted = [n for place in _PLACES for n in (place + _POINTS, 2 * place, place)] + [2**30, 2**20, most]
+    counts = sorted({n for n in wanted if n >= 2**16 and subject.allows(n, dims)})
     if not counts:
         raise NotApplicable(f"its largest index is {subject.spec.largest_index}")
-    # Sets so large that a bank or a table is made for them would take for ever: they say so by their cost.
     realizations = Realizations.of_trials(0, 2, 0)
     for count in counts:
         beginning = subject.fill(realizations, count, dims, 0, _POINTS)
-        for start in sorted({count - _POINTS, *(p - _POINTS // 2 for p in PLACES if p + _POINTS // 2 <= count)}):
+        for start in sorted({count - _POINTS, *(p - _POINTS // 2 for p in _PLACES if p + _POINTS // 2 <= count)}):
             values = subject.fill(realizations, count, dims, start, _POINTS)
-            if outside(values) is not None:
-                judge_range(subject, values, count, 0)
+            judge_range(subject, values, count, 0)
             for i in (0, _POINTS // 2, _POINTS - 1):
                 alone = subject.fill(realizations, count, dims, start + i, 1)
-                judge_part(subject, values[:, :, i : i + 1], alone, count, "when asked for alone", start + i)
+                judge_equal(subject, values[:, :, i : i + 1], alone, count, "when asked for alone", start=start + i)
             same = (values[0, :, :, None] == beginning[0, :, None, :]).all(axis=0)
             if start >= _POINTS and same.any():
                 late, early = (int(i) for i in np.argwhere(same)[0])
@@ -56,59 +47,50 @@ def check_large_index(subject: Subject) -> None:
                     f"point {start + late} of {count} is point {early} again",
                     subject.example(values, count, start=start, indices=(late,)),
                 )
-    _judge_late_blocks(subject)
-
-
-def _judge_late_blocks(subject: Subject) -> None:
-    """Blocks of a promised (t, s)-sequence about the places are nets."""
     for net in subject.spec.promised(Net):
-        if not net.sequence:
-            continue
-        dims = dims_of(subject.spec, max(net.dims) + 1)
-        if max(net.dims) >= dims:
-            continue
-        m = next(m for m in range(64) if net.base**m >= 64 or m == net.t + 3)
-        block = net.base**m
-        for place in PLACES:
-            # The count: the next power of the base, for samplers that make powers alone.
-            count = net.base
-            while count < place + block:
-                count *= net.base
-            if count > subject.spec.largest_index + 1 or not subject.spec.counts.allows(count, dims):
-                continue
+        dims = subject.dims(max(net.dims) + 1)
+        if net.sequence and max(net.dims) < dims:
+            _judge_late_blocks(subject, net, dims)
+
+
+def _judge_late_blocks(subject: SamplerSubject, net: Net, dims: int) -> None:
+    """Judge blocks of a promised (t, s)-sequence about the places: each is a net."""
+    block = next(net.base**m for m in range(64) if net.base**m >= 64 or m == net.t + 3)
+    for place in _PLACES:
+        # The count is a power of the base, for samplers that make nothing else.
+        count = net.base
+        while count < place + block:
+            count *= net.base
+        if subject.allows(count, dims):
             start = place // block * block
             values = subject.fill(Realizations.of_trials(0, 2, 0), count, dims, start, block)
-            judge_net(subject, values, net, count, start=start)
+            judge_promise(subject, net, values, count, start=start)
 
 
-@check("pixel-extremes", 17)
-def check_pixel_extremes(subject: Subject) -> None:
+@conformance_check("pixel-extremes", 17)
+def check_pixel_extremes(subject: SamplerSubject) -> None:
     """Pixels at 0, 2^16 + 1, 2^31 - 1 and 2^32 - 1 have sets of their own, the same alone as in company."""
     dims = subject.dims(2)
     count = subject.counts(16, dims=dims)[0]
-    x, y = (np.array(each, np.int64).ravel() for each in np.meshgrid(EXTREMES, EXTREMES))
-    realizations = Realizations.of_pixels(x, y, 0)
-    values = subject.fill(realizations, count, dims)
+    pixels = [(x, y) for y in _COORDINATES for x in _COORDINATES]
+    x, y = np.array(pixels, np.int64).T
+    values = subject.fill(Realizations.of_pixels(x, y, 0), count, dims)
     judge_range(subject, values, count, 0)
-    for i in range(x.size):
+    for i, pixel in enumerate(pixels):
         alone = subject.fill(Realizations.of_pixels(x[i : i + 1], y[i : i + 1], 0), count, dims)
         if (alone[0] != values[i]).any():
             raise CheckFailed(
                 "the set of a pixel is another one when it is asked for alone",
-                CounterExample(subject.text, count, dims, 0, (int(x[i]), int(y[i]))),
+                subject.request(count, dims, realization=pixel),
             )
-    if not subject.spec.randomized:
-        return
-    seen: dict[bytes, int] = {}
-    for i in range(x.size):
-        j = seen.setdefault(values[i].tobytes(), i)
-        if j != i and not _may_repeat(subject, (int(x[i] - x[j]), int(y[i] - y[j]))):
+    seen: dict[bytes, tuple[int, int]] = {}
+    for pixel, points in zip(pixels, values, strict=True) if subject.spec.randomized else ():
+        earlier = seen.setdefault(points.tobytes(), pixel)
+        if earlier != pixel and not _may_repeat(subject.spec.period, earlier, pixel):
             raise CheckFailed(
-                f"pixels ({x[j]}, {y[j]}) and ({x[i]}, {y[i]}) have the same set",
-                CounterExample(subject.text, count, dims, 0, (int(x[i]), int(y[i]))),
+                f"pixels {earlier} and {pixel} have the same set", subject.request(count, dims, realization=pixel)
             )
 
 
-def _may_repeat(subject: Subject, offset: tuple[int, int]) -> bool:
-    period = subject.spec.period
-    return period is not None and all(part % period == 0 for part in offset)
+def _may_repeat(period: int | None, first: tuple[int, int], second: tuple[int, int]) -> bool:
+    return period is not None and all((b - a) % period == 0 for a, b in zip(first, second, strict=True))

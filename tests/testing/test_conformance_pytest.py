@@ -57,13 +57,13 @@ def test_a_class_for_what_is_not_installed(samplekit_with, tmp_path):
 
 
 def test_the_plugin_imports_pytest_alone():
-    """It is loaded in every run of pytest in its environment."""
+    """Every run of pytest in its environment loads it: nothing comes with it but what makes imports lazy."""
     program = (
         "import sys, pytest; before = set(sys.modules); import samplekit.testing._pytest_plugin;"
         "print(*sorted({m.partition('.')[0] for m in set(sys.modules) - before}))"
     )
     result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True)
-    assert result.stdout.split() == ["samplekit"]
+    assert result.stdout.split() == ["lazy_loader", "samplekit"]
 
 
 def test_checks_need_no_pytest():
