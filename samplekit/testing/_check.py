@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import functools
-from typing import TYPE_CHECKING, NamedTuple
+from functools import partial
+from typing import TYPE_CHECKING
 
 from samplekit._checks import check_positive
 from samplekit._choices import parse_choice
@@ -19,17 +19,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
 
     from samplekit.testing._result import Kind, Outcome
-
-
-class _Task(NamedTuple):
-    """One subject that is to be judged: plain data. ``limits``: seconds and bytes, if it runs in its own process."""
-
-    label: str
-    recipe: Recipe
-    kind: Kind
-    checks: list[str]
-    quick: bool
-    limits: tuple[float, float] | None
 
 
 def check(
@@ -92,15 +81,16 @@ def check(
         raise UsageError("check: expected NAME..., or --all (in Python everything=True)")
     chosen_checks([*CHECKS, *SCENE_CHECKS], only)
     check_positive("jobs", jobs)
-    limits = (time_limit, memory_limit * 2**30) if isolated else None
-    tasks = [
-        _Task(label, recipe, kind, [each.name for each in SUITES[kind] if not only or each.name in only], quick, limits)
-        for recipe in recipes
-        for label, kind in _kinds(recipe, configure=not isolated)
-    ]
+    judge = partial(check_isolated, seconds=time_limit, memory=memory_limit * 2**30) if isolated else run_checks
+    labels, tasks = [], []
+    for recipe in recipes:
+        for label, kind in _kinds(recipe, configure=not isolated):
+            chosen = [each.name for each in SUITES[kind] if not only or each.name in only]
+            labels.append(label)
+            tasks.append(partial(judge, recipe, kind, only=chosen, quick=quick))
     reports = []
-    for task, outcomes in zip(tasks, _outcomes(tasks, jobs, progress), strict=True):
-        reports.append(SubjectReport(task.label, outcomes))
+    for label, outcomes in zip(labels, _run(tasks, jobs, progress), strict=True):
+        reports.append(SubjectReport(label, outcomes))
         progress(len(reports), len(tasks))
         report(reports[-1])
     return Report(reports, quick)
@@ -132,44 +122,44 @@ def _kinds(recipe: Recipe, *, configure: bool) -> list[tuple[str, Kind]]:
     """
     if not isinstance(recipe, str):
         return [(recipe.name, "sampler" if isinstance(recipe, SamplerSpec) else "scene")]
-    name = parse_choice(recipe, "sampler").name
+    choice = parse_choice(recipe, "sampler")
     kinds: list[Kind] = []
     unknown: list[UnknownNameError] = []
     for kind in SUITES:
         try:
-            registry().find(kind, name)
+            registry().find(kind, choice.name)
         except UnknownNameError as error:
             unknown.append(error)
         else:
             kinds.append(kind)
     if not kinds:
         raise UsageError(f"{unknown[0]}; and no scene has that name")
+    if choice.randomizer and "sampler" in kinds:
+        # Only a sampler takes a randomizer.
+        kinds = ["sampler"]
     for kind in kinds if configure else ():
         make_subject(recipe, kind)
     return [(recipe if len(kinds) == 1 else f"{kind} {recipe}", kind) for kind in kinds]
 
 
-def _outcomes(tasks: list[_Task], jobs: int, progress: Callable[[int, int], None]) -> Iterator[list[Outcome]]:
+def _run(
+    tasks: Sequence[Callable[[], Iterator[Outcome]]], jobs: int, progress: Callable[[int, int], None]
+) -> Iterator[list[Outcome]]:
     """Yield the outcomes of each task in turn; ``jobs`` tasks run at a time."""
     if jobs == 1 or len(tasks) == 1:
         for done, task in enumerate(tasks):
-            yield _judge(task, functools.partial(progress, done, len(tasks)))
+            yield _collect(task, partial(progress, done, len(tasks)))
         return
     from concurrent.futures import ProcessPoolExecutor
     from multiprocessing import get_context
 
     with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-        yield from pool.map(_judge, tasks)
+        yield from pool.map(_collect, tasks)
 
 
-def _judge(task: _Task, tick: Callable[[], None] = lambda: None) -> list[Outcome]:
-    if task.limits:
-        seconds, memory = task.limits
-        return check_isolated(
-            task.recipe, task.kind, task.checks, quick=task.quick, seconds=seconds, memory=memory, tick=tick
-        )
+def _collect(task: Callable[[], Iterator[Outcome]], tick: Callable[[], None] = lambda: None) -> list[Outcome]:
     outcomes = []
-    for outcome in run_checks(task.recipe, task.kind, quick=task.quick, only=task.checks):
+    for outcome in task():
         outcomes.append(outcome)
         tick()
     return outcomes

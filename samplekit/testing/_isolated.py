@@ -11,7 +11,7 @@ from samplekit.testing._process import OtherProcess
 from samplekit.testing._result import Outcome
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Iterator, Sequence
 
     from samplekit.testing._result import Kind
     from samplekit.testing._subject import Recipe
@@ -21,22 +21,15 @@ _MOST_ENDS = 3
 
 
 def check_isolated(
-    recipe: Recipe,
-    kind: Kind,
-    checks: Sequence[str],
-    *,
-    quick: bool,
-    seconds: float,
-    memory: float,
-    tick: Callable[[], None] = lambda: None,
-) -> list[Outcome]:
+    recipe: Recipe, kind: Kind, *, only: Sequence[str], quick: bool, seconds: float, memory: float
+) -> Iterator[Outcome]:
     """Run checks of one sampler or scene in a process that may die.
 
     Parameters
     ----------
     recipe, kind
         What is judged.
-    checks
+    only
         Names of the checks, in their order.
     quick
         Smaller samples.
@@ -44,15 +37,13 @@ def check_isolated(
         Longest time of one check, and of the import before the first.
     memory
         Most memory of the process, in bytes.
-    tick
-        Called after each check.
 
-    Returns
-    -------
-    An outcome for every check.
+    Yields
+    ------
+    An outcome for every check. One that passed may become a failure at the end, if the process has printed.
     """
     name = recipe if isinstance(recipe, str) else recipe.name
-    left = list(checks)
+    left = list(only)
     outcomes: list[Outcome] = []
     ends = 0
     printed = b""
@@ -61,23 +52,24 @@ def check_isolated(
         during = "while it was imported and configured"
         for result in process:
             if isinstance(result, Outcome):
-                outcomes.append(result)
                 left = left[1:]
+                outcomes.append(result)
+                yield result
             during = f"during {left[0]}" if left else ""
-            tick()
         printed += process.printed
         if process.problem and left:
             ends += 1
             why = f": {process.last_line}" if process.last_line else ""
             outcomes.append(Outcome(name, left.pop(0), "failed", f"{process.problem} {during}{why}"))
-    outcomes += [Outcome(name, check, "failed", f"not run: {outcomes[-1].message}") for check in left]
+            yield outcomes[-1]
+    for check in left:
+        yield Outcome(name, check, "failed", f"not run: {outcomes[-1].message}")
     if printed.strip():
         # Output that reached the process's standard output, from whatever language.
         blamed = next((outcome for outcome in outcomes if outcome.check == "purity"), outcomes[-1])
         if blamed.status == "passed":
             blamed.status = "failed"
             blamed.message = f"prints to standard output: {printed[:60].decode(errors='replace')!r}"
-    return outcomes
 
 
 def answer(recipe: Recipe, kind: Kind, checks: Sequence[str], quick: bool) -> Iterator[Any]:

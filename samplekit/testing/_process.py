@@ -18,6 +18,8 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
+import psutil
+
 from samplekit._quoting import reason
 
 if TYPE_CHECKING:
@@ -121,7 +123,7 @@ class OtherProcess:
                     yield result
             if time.monotonic() - since > self._seconds:
                 problem = f"hangs: no answer in {self._seconds:g} s"
-            elif self._memory is not None and _memory_of(process.pid) > self._memory:
+            elif self._memory is not None and _memory_of(process) > self._memory:
                 problem = f"takes more than {self._memory / 2**30:.3g} GiB of memory"
             elif alive:
                 time.sleep(_POLL)
@@ -144,29 +146,31 @@ def _whole_results(stream: BinaryIO) -> Iterator[Any]:
             return
 
 
-def _memory_of(process: int) -> int:
-    """Return the resident bytes of a process and its children; 0 if it has gone."""
-    import psutil
-
-    try:
-        parent = psutil.Process(process)
-        return sum(int(each.memory_info().rss) for each in [parent, *parent.children(recursive=True)])
-    except psutil.Error:
-        return 0
+def _memory_of(process: subprocess.Popen[bytes]) -> int:
+    """Return the resident bytes of a process and what it has started, as far as these still run."""
+    memory = 0
+    for each in _family(process):
+        with contextlib.suppress(psutil.Error):
+            memory += int(each.memory_info().rss)
+    return memory
 
 
 def _kill(process: subprocess.Popen[bytes]) -> None:
     """End a process and what it has started, by their ids."""
-    import psutil
-
-    started: list[psutil.Process] = []
-    with contextlib.suppress(psutil.Error):
-        started = psutil.Process(process.pid).children(recursive=True)
+    family = _family(process)
     process.kill()
     process.wait()
-    for each in started:
+    for each in family:
         with contextlib.suppress(psutil.Error):
             each.kill()
+
+
+def _family(process: subprocess.Popen[bytes]) -> list[psutil.Process]:
+    try:
+        parent = psutil.Process(process.pid)
+        return [parent, *parent.children(recursive=True)]
+    except psutil.Error:
+        return []
 
 
 def _last_line(errors: Path) -> str:

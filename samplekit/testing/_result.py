@@ -64,19 +64,12 @@ class CounterExample:
         return text + (f": {'; '.join(shown[:_POINTS_SHOWN])}{more}" if shown else "")
 
     def as_json(self) -> dict[str, Any]:
-        """Return plain data; the seed is text because many JSON readers round integers beyond 2^53."""
-        return {
-            "sampler": self.sampler,
-            "count": self.count,
-            "dims": self.dims,
-            "seed": str(self.seed),
-            "realization": list(self.realization) if isinstance(self.realization, tuple) else self.realization,
-            "indices": list(self.indices),
-            # JSON has no NaN: a coordinate that was never written is given as text.
-            "coordinates": [[x if x == x else "nan" for x in map(float, place)] for place in self.coordinates],
-            "axes": list(self.axes),
-            "box": [list(edges) for edges in self.box],
-        }
+        """Return plain data, without the points."""
+        data = {name: value for name, value in vars(self).items() if name != "points"}
+        # Many readers of JSON round integers beyond 2^53, and JSON has no NaN, which a coordinate never written is.
+        data["seed"] = str(self.seed)
+        data["coordinates"] = [[x if x == x else "nan" for x in map(float, place)] for place in self.coordinates]
+        return data
 
 
 class CheckFailed(Exception):  # noqa: N818 - it is a verdict, not an error of the program

@@ -203,28 +203,38 @@ class SamplerSubject(Subject):
         CheckFailed
             The sampler raised, or left values unwritten.
         """
-        source = sampler or self.sampler
-        number = count - start if points is None else points
         if sampler is None and (count, dims) not in self._prepared:
-            source.prepare(count, dims)
+            self.sampler.prepare(count, dims)
             self._prepared.add((count, dims))
-        out = np.full((len(realizations), dims, number), np.nan)
+        out = np.full((len(realizations), dims, count - start if points is None else points), np.nan)
+        self.write(out, realizations, count, start, sampler or self.sampler)
+        return out
+
+    def write(self, out: Array, realizations: Realizations, count: int, start: int, sampler: ConfiguredSampler) -> None:
+        """Have a sampler write the points from ``start`` on into ``out`` float64[R, D, n].
+
+        Raises
+        ------
+        CheckFailed
+            The sampler raised, or left values unwritten.
+        """
         try:
-            source.fill(out, realizations, count, start)
-        except SamplekitError as error:
+            sampler.fill(out, realizations, count, start)
+        except InvalidPointsError:
             # Rendering refuses values outside [0, 1); here they are evidence.
-            if not isinstance(error, InvalidPointsError) or not np.isfinite(out).all():
-                refusal = "refuses what it declares: " if isinstance(error, UsageError) else ""
-                example = self.request(count, dims, realizations.seed, int(realizations.x[0]))
-                raise CheckFailed(f"{refusal}{error}", example) from None
-        self.drawn += len(realizations) * number
-        if np.isnan(out).any():
-            row, _, point = (int(i) for i in np.argwhere(np.isnan(out))[0])
+            pass
+        except SamplekitError as error:
+            refusal = "refuses what it declares: " if isinstance(error, UsageError) else ""
+            example = self.request(count, out.shape[1], realizations.seed, int(realizations.x[0]))
+            raise CheckFailed(f"{refusal}{error}", example) from None
+        self.drawn += out.shape[0] * out.shape[2]
+        wrong = ~np.isfinite(out)
+        if wrong.any():
+            row, _, point = (int(i) for i in np.argwhere(wrong)[0])
             raise CheckFailed(
-                "left a value unwritten, or wrote NaN",
+                f"{int(np.count_nonzero(wrong))} of {out.size} values are not written, or not finite",
                 self.example(out, count, seed=realizations.seed, row=row, indices=(point,), start=start),
             )
-        return out
 
     def sets(self, count: int, dims: int, realizations: int = 1, *, seed: int = 0, first: int = 0) -> Array:
         """Return whole sets float64[R, D, N] of the realisations first to first + R."""

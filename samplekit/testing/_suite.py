@@ -3,27 +3,14 @@
 from __future__ import annotations
 
 import difflib
+import pkgutil
 import time
+from importlib import import_module
 from typing import TYPE_CHECKING
 
 from samplekit._errors import UsageError
 from samplekit._quoting import reason
-from samplekit.testing import (
-    _determinism,
-    _dimensions,
-    _imports,
-    _large,
-    _limits,
-    _pixels,
-    _prefix,
-    _promises,
-    _purity,
-    _range,
-    _scenes,
-    _underdeclared,
-    _uniformity,
-    _variance,
-)
+from samplekit.testing import _checks
 from samplekit.testing._result import Check, CheckFailed, NotApplicable, Outcome
 from samplekit.testing._subject import make_subject
 
@@ -34,28 +21,12 @@ if TYPE_CHECKING:
     from samplekit.testing._result import Kind
     from samplekit.testing._subject import Recipe, Subject
 
-_MODULES = (
-    _determinism,
-    _dimensions,
-    _imports,
-    _large,
-    _limits,
-    _pixels,
-    _prefix,
-    _promises,
-    _purity,
-    _range,
-    _scenes,
-    _underdeclared,
-    _uniformity,
-    _variance,
+_MODULES = [import_module(f"{_checks.__name__}.{each.name}") for each in pkgutil.iter_modules(_checks.__path__)]
+_FOUND = [each for module in _MODULES for each in vars(module).values() if isinstance(each, Check)]
+CHECKS, SCENE_CHECKS = (
+    tuple(sorted((check for check in _FOUND if check.kind == kind), key=lambda check: check.number))
+    for kind in ("sampler", "scene")
 )
-_ALL = sorted(
-    (each for module in _MODULES for each in vars(module).values() if isinstance(each, Check)),
-    key=lambda check: check.number,
-)
-CHECKS = tuple(check for check in _ALL if check.kind == "sampler")
-SCENE_CHECKS = tuple(check for check in _ALL if check.kind == "scene")
 SUITES: Mapping[Kind, tuple[Check, ...]] = {"sampler": CHECKS, "scene": SCENE_CHECKS}
 
 

@@ -30,7 +30,7 @@ def test_a_broken_scene_is_caught(spec, check):
 
 def test_the_quadrature_is_right():
     """Its own error, against integrals in closed form: smooth to 1e-10, a disk within what it says."""
-    from samplekit.testing._scenes import _quadrature
+    from samplekit.testing._checks.scenes import _quadrature
     from samplekit.testing._subject import SceneSubject
 
     box = np.array([0.25, 0.5, 0.125, 0.25])

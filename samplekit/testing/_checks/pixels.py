@@ -12,12 +12,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit._bases.realizations import Realizations
+from samplekit.testing._checks.screen import judge_blocks
 from samplekit.testing._result import CheckFailed, conformance_check
-from samplekit.testing._screen import judge_blocks
 from samplekit.testing._statistics import normal_threshold
 
 if TYPE_CHECKING:
-    from samplekit._specs import SamplerSpec
     from samplekit.testing._subject import Array, SamplerSubject
 
 _PIXELS, _QUICK_PIXELS = 1 << 17, 1 << 13
@@ -25,12 +24,11 @@ _LAGS = (1, 2, 16, 256)
 _COUNT = 4
 
 
-def _declared_randomized(spec: SamplerSpec) -> str:
-    return "" if spec.randomized else "it is not declared randomised: all pixels have one set"
-
-
 @conformance_check(
-    "across-pixels", 13, tolerance="repeats exact; correlation family-wise 1e-3", requires=_declared_randomized
+    "across-pixels",
+    13,
+    tolerance="repeats exact; correlation family-wise 1e-3",
+    requires=lambda spec: "" if spec.randomized else "it is not declared randomised: all pixels have one set",
 )
 def check_across_pixels(subject: SamplerSubject) -> None:
     """No two of 2^17 pixels of a row, and of a column, have one set; neighbours are not correlated, or share a net."""

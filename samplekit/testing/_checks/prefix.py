@@ -10,7 +10,6 @@ from samplekit.testing._judge import judge_equal
 from samplekit.testing._result import conformance_check
 
 if TYPE_CHECKING:
-    from samplekit._specs import SamplerSpec
     from samplekit.testing._subject import SamplerSubject
 
 _POWERS = tuple(n for k in range(1, 13) for n in (2**k - 1, 2**k, 2**k + 1))
@@ -18,11 +17,12 @@ _BASES = tuple(b**k for b in (3, 5, 7) for k in range(1, 8) if b**k < 5000)
 _LENGTHS = (1, 3, 16, 100, 1000, *_POWERS, *_BASES)
 
 
-def _declared_progressive(spec: SamplerSpec) -> str:
-    return "it is not declared progressive" if spec.progressive is None else ""
-
-
-@conformance_check("prefix", 5, tolerance="bit for bit", requires=_declared_progressive)
+@conformance_check(
+    "prefix",
+    5,
+    tolerance="bit for bit",
+    requires=lambda spec: "it is not declared progressive" if spec.progressive is None else "",
+)
 def check_prefix(subject: SamplerSubject) -> None:
     """The first N of M points are the set of N points, for every N at which prefixes are declared good."""
     dims = subject.dims(3)

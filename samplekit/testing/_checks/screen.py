@@ -14,8 +14,8 @@ import numpy as np
 
 from samplekit._bases.realizations import Realizations
 from samplekit._specs import Strata
+from samplekit.testing._checks.promises import promised_nets
 from samplekit.testing._judge import judge_promise
-from samplekit.testing._promises import promised_nets
 from samplekit.testing._result import CheckFailed
 
 if TYPE_CHECKING:

@@ -29,19 +29,7 @@ def promised_nets(spec: SamplerSpec) -> list[Net]:
     return [net for net in spec.promised(Net) if most is None or max(net.dims) < most]
 
 
-def _promises_nets(spec: SamplerSpec) -> str:
-    return "" if promised_nets(spec) else "it promises no net"
-
-
-def _promises_strata(spec: SamplerSpec) -> str:
-    return "" if spec.promised(Strata) else "it promises no strata"
-
-
-def _promises_distance(spec: SamplerSpec) -> str:
-    return "" if spec.promised(MinimumDistance) else "it promises no minimum distance"
-
-
-@conformance_check("elementary-intervals", 7, requires=_promises_nets)
+@conformance_check("elementary-intervals", 7, requires=lambda spec: "" if promised_nets(spec) else "it promises no net")
 def check_elementary_intervals(subject: SamplerSubject) -> None:
     """Every elementary interval of every promised net holds its points: first block, later ones of a sequence.
 
@@ -99,7 +87,7 @@ def _judge_later_blocks(subject: SamplerSubject, net: Net, block: int, dims: int
         judge_promise(subject, net, values, count, start=start)
 
 
-@conformance_check("strata", 8, requires=_promises_strata)
+@conformance_check("strata", 8, requires=lambda spec: "" if spec.promised(Strata) else "it promises no strata")
 def check_strata(subject: SamplerSubject) -> None:
     """Every promised interval and cell holds exactly one point, in every set."""
     judged = False
@@ -118,7 +106,10 @@ def check_strata(subject: SamplerSubject) -> None:
 
 
 @conformance_check(
-    "minimum-distance", 9, tolerance="2^-51, the rounding of the coordinates", requires=_promises_distance
+    "minimum-distance",
+    9,
+    tolerance="2^-51, the rounding of the coordinates",
+    requires=lambda spec: "" if spec.promised(MinimumDistance) else "it promises no minimum distance",
 )
 def check_minimum_distance(subject: SamplerSubject) -> None:
     """No two points are closer than the promised part of the densest packing's distance, on the torus."""

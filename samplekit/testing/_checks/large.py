@@ -8,8 +8,8 @@ import numpy as np
 
 from samplekit._bases.realizations import Realizations
 from samplekit._specs import Net
+from samplekit.testing._checks.range import judge_range
 from samplekit.testing._judge import judge_equal, judge_promise
-from samplekit.testing._range import judge_range
 from samplekit.testing._result import CheckFailed, NotApplicable, conformance_check
 
 if TYPE_CHECKING:

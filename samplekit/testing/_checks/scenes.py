@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.testing._purity import changing_nothing
+from samplekit.testing._checks.purity import changing_nothing
 from samplekit.testing._result import CheckFailed, NotApplicable, conformance_check
 from samplekit.testing._statistics import SAMPLER_RATE
 
