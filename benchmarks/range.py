@@ -16,7 +16,8 @@ import time
 import numpy as np
 
 from samplekit import Realizations
-from samplekit._configured.sampler import ConfiguredSampler, configured_sampler
+from samplekit import ConfiguredSampler
+from samplekit import sampler as configured_sampler
 from samplekit._registry import registry
 from samplekit.testing._forced_bits import forced_extremes
 from samplekit.testing._subject import SamplerSubject

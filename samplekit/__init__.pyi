@@ -52,8 +52,8 @@ from ._specs import Promise as Promise
 from ._specs import RandomizerSpec as RandomizerSpec
 from ._specs import SamplerSpec as SamplerSpec
 from ._specs import SceneSpec as SceneSpec
-from ._specs import Violation as Violation
 from ._specs.counts import grid_sides as grid_sides
+from ._specs.point_cells import Violation as Violation
 from ._stability.sweep import Stability as Stability
 from ._stability.sweep import stability as stability
 from ._study.compare import InterruptedStudy as InterruptedStudy

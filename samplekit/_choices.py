@@ -10,7 +10,14 @@ from samplekit._errors import UsageError
 
 @dataclass(frozen=True)
 class Choice:
-    """A name with the options that were given, as text, and the name behind a plus sign."""
+    """A name with the options that were given, as text, and the name behind a plus sign.
+
+    Examples
+    --------
+    >>> from samplekit import Choice
+    >>> Choice("disk", {"radius": "0.2"}).randomizer is None
+    True
+    """
 
     name: str
     options: dict[str, str] = field(default_factory=dict)
@@ -24,6 +31,13 @@ def parse_choice(text: str, kind: str) -> Choice:
     ------
     UsageError
         The text does not have this form.
+
+    Examples
+    --------
+    >>> import samplekit
+    >>> choice = samplekit.parse_choice("halton:scramble=digits+shift", "sampler")
+    >>> choice.name, choice.options, choice.randomizer
+    ('halton', {'scramble': 'digits'}, 'shift')
     """
     chosen, *randomizers = re.split(r"\+(?=[A-Za-z])", text) if kind == "sampler" else [text]
     if any("." in randomizer.rpartition("/")[2] for randomizer in randomizers):

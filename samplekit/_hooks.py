@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 hookspec = pluggy.HookspecMarker("samplekit")
 hookimpl = pluggy.HookimplMarker("samplekit")
+"""Marks a function of a plugin as one that samplekit calls: ``@hookimpl`` above ``def samplekit_samplers()``."""
 
 
 @hookspec

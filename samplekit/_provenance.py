@@ -19,7 +19,14 @@ _LIBRARIES = ("numpy", "numba", "scipy", "OpenImageIO")
 
 
 def versions() -> dict[str, str]:
-    """The versions of samplekit, of Python and of the libraries that numbers depend on."""
+    """Return the versions of samplekit, of Python and of the libraries that numbers depend on.
+
+    Examples
+    --------
+    >>> import samplekit
+    >>> sorted(samplekit.versions())
+    ['OpenImageIO', 'numba', 'numpy', 'python', 'samplekit', 'scipy']
+    """
     from samplekit import __version__
 
     return {"samplekit": __version__, "python": platform.python_version()} | {

@@ -54,6 +54,12 @@ class Plugin:
         Whether an environment variable switches the plugin off.
     offers
         The names that it offers, by kind.
+
+    Examples
+    --------
+    >>> import samplekit
+    >>> [plugin.name for plugin in samplekit.plugins() if plugin.builtin]
+    ['samplekit']
     """
 
     name: str

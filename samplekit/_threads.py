@@ -48,6 +48,12 @@ def check_threads(threads: object) -> int:
     ------
     UsageError
         It is not an integer from 1 to 1024.
+
+    Examples
+    --------
+    >>> from samplekit import check_threads
+    >>> check_threads(2)
+    2
     """
     if threads is None:
         return default_threads()

@@ -231,7 +231,7 @@ def test_one_that_declares_nonsense_says_what(plugins, body, reason):
         ("samplekit_samplers(count)", "cannot be registered: PluginValidationError"),
         (
             "samplekit_sampler()",
-            "unknown hook samplekit_sampler: the hooks are samplekit_commands, samplekit_optionssamplekit_randomizers",
+            "unknown hook samplekit_sampler: the hooks are samplekit_commands, samplekit_options",
         ),
         ("samplekit_init()", "unknown hook samplekit_init"),
     ],

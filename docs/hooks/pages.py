@@ -1,5 +1,6 @@
 """The site's pages that live elsewhere in the repository: the README as home, and the gallery with its pictures."""
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -24,3 +25,14 @@ def on_page_markdown(markdown: str, **_: Any) -> str:
     for old, new in MOVED:
         markdown = markdown.replace(old, new)
     return markdown
+
+
+def on_page_content(html: str, page: Any, **_: Any) -> str:
+    """Turn the roles of docstrings, such as :func:`samplekit.render`, into links to the reference."""
+
+    def link(match: re.Match[str]) -> str:
+        name = match[1]
+        identifier = name if "." in name else f"{page.title}.{name}"
+        return f'<autoref optional identifier="{identifier}"><code>{name}</code></autoref>'
+
+    return re.sub(r":[a-z]+:<code>~?([\w.]+)</code>", link, html)

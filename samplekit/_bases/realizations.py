@@ -17,7 +17,7 @@ LARGEST_COORDINATE = 2**32 - 1
 
 
 def _mix64(x: NDArray[np.uint64]) -> NDArray[np.uint64]:
-    """The bijection of :func:`samplekit.kernels._hashing.mix64` on whole arrays, without importing numba."""
+    """The bijection of :func:`samplekit.kernels.mix64` on whole arrays, without importing numba."""
     x = (x ^ (x >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
     x = (x ^ (x >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
     return x ^ (x >> np.uint64(31))
@@ -96,18 +96,31 @@ class Realizations:
 
 
 def seed_word(seed: int) -> np.uint64:
-    """The word that the seed contributes to every key: key = mix64((x | y << 32) ^ seed_word)."""
+    """Return the word that the seed contributes to every key: key = mix64((x | y << 32) ^ seed_word).
+
+    Examples
+    --------
+    >>> from samplekit import seed_word
+    >>> bool(seed_word(0) != seed_word(1))
+    True
+    """
     word: np.uint64 = _mix64(np.array([seed], np.uint64) ^ np.uint64(0x9E3779B97F4A7C15))[0]
     return word
 
 
 def check_seed(seed: object) -> int:
-    """The seed as an int.
+    """Return the seed as an int.
 
     Raises
     ------
     UsageError
         It is not an integer from 0 to 2^64 - 1.
+
+    Examples
+    --------
+    >>> from samplekit import check_seed
+    >>> check_seed(7)
+    7
     """
     if isinstance(seed, bool) or not isinstance(seed, (int, np.integer)) or not 0 <= int(seed) <= LARGEST_SEED:
         raise UsageError(f"seed {seed}: expected an integer from 0 to {LARGEST_SEED}")

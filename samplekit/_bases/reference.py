@@ -22,6 +22,13 @@ class Reference:
         Bound of its error beyond rounding, in any pixel; 0: exact.
     numerical
         The bound is an estimate of adaptive quadrature: the scene gives no reference of its own.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from samplekit import Reference
+    >>> Reference(np.zeros((4, 4))).kind
+    'exact'
     """
 
     image: NDArray[np.float64]

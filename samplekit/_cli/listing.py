@@ -109,7 +109,7 @@ def _record(name: str, spec: Spec, plugin: Plugin) -> dict[str, Any]:
         record["largest_index"] = str(spec.largest_index)
         record["counts"] = str(spec.counts)
         record["progressive"] = words.progressive_word(spec)
-        record["promises"] = [{"promise": promise.keyword, **asdict(promise)} for promise in spec.promises]
+        record["promises"] = [{"promise": promise.keyword, **vars(promise)} for promise in spec.promises]
     return record
 
 

@@ -25,10 +25,11 @@ _NEAR = 2000
 """So many counts on either side are tried one by one in search of a grid."""
 
 
+@dataclass(frozen=True)
 class Counts(ABC):
     """A rule about which numbers of points a sampler can make.
 
-    A plugin may define rules of its own: a frozen dataclass that derives from this class.
+    A plugin may define rules of its own, which derive from this class: frozen dataclasses, if they have fields.
 
     Examples
     --------
@@ -101,7 +102,6 @@ class Counts(ABC):
         return f"{name} makes {self.describe()}{where}, not {count}{known}"
 
 
-@dataclass(frozen=True)
 class AnyCount(Counts):
     """Every number of points from 1 on.
 
@@ -233,7 +233,6 @@ class Powers(Counts):
         return {2: "squares", 3: "cubes"}.get(self.degree, f"exponent-{self.degree}")
 
 
-@dataclass(frozen=True)
 class PrimePowers(Powers):
     """Powers of primes with a fixed exponent: ``PrimePowers(2)`` allows 4, 9, 25, 49, ...
 
@@ -306,7 +305,6 @@ class PowersOf(Counts):
         return f"powers-of-{self.base}"
 
 
-@dataclass(frozen=True)
 class FibonacciNumbers(Counts):
     """The Fibonacci numbers 1, 2, 3, 5, 8, ...
 

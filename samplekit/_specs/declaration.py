@@ -115,7 +115,6 @@ class Declaration:
             raise UsageError(f"{self.name}: {error}") from None
 
 
-@dataclass(frozen=True)
 class CommandSpec(Declaration):
     """The declaration of a command; ``target`` names a function that typer can turn into a command.
 

@@ -10,6 +10,7 @@ point and ends below the boundary is not.
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -21,6 +22,40 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from samplekit._specs.promise import Cells
+
+
+@dataclass(frozen=True)
+class Violation:
+    """Where a set breaks a promise: what :meth:`Promise.find_violation` returns. ``str`` says it in one line.
+
+    Attributes
+    ----------
+    message
+        What is wrong, in one line.
+    realization
+        Index of the set.
+    points
+        Indices of the points that show it.
+    axes, box
+        The dimensions, and the interval along each of them, of the cell that holds too many points or too few; empty
+        if no cell is at fault.
+
+    Examples
+    --------
+    >>> import samplekit
+    >>> found = samplekit.LatinStrata().find_violation([[0.1, 0.7], [0.4, 0.2]])
+    >>> found.points, found.axes, found.box
+    ((0, 1), (0,), ((0.0, 0.5),))
+    """
+
+    message: str
+    realization: int
+    points: tuple[int, ...]
+    axes: tuple[int, ...] = ()
+    box: tuple[tuple[float, float], ...] = ()
+
+    def __str__(self) -> str:
+        return self.message
 
 
 def cell_of(x: NDArray[np.float64], cells: int) -> NDArray[np.int64]:
@@ -78,13 +113,13 @@ def find_uneven_cell(points: NDArray[np.float64], grids: Iterable[Cells]) -> Une
     for cells in grids:
         for axis, side in zip(cells.axes, cells.sides, strict=True):
             finest[axis] = max(side, finest.get(axis, 1))
+    finest_cells = {axis: cell_of(points[:, :, axis], side) for axis, side in finest.items()}
 
     @cache
     def along(axis: int, side: int) -> NDArray[np.int64]:
-        finer = finest[axis]
-        if side < finer and finer % side == 0:
-            # The same cells, for a fraction in lowest terms has one float64; and faster.
-            return along(axis, finer) // (finer // side)
+        if finest[axis] % side == 0:
+            # The same cells as `cell_of` gives, for equal fractions are equal float64s; and faster.
+            return finest_cells[axis] // (finest[axis] // side)
         return cell_of(points[:, :, axis], side)
 
     for cells in grids:

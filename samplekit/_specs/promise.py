@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
-    from samplekit._specs.point_cells import UnevenCell
+    from samplekit._specs.point_cells import UnevenCell, Violation
 
 _ROUNDING = 2.0**-51
 """Coordinates are rounded to 2^-53, and moved and wrapped with another rounding: a distance is known to this."""
@@ -43,41 +43,6 @@ class Cells(NamedTuple):
     sides: tuple[int, ...]
 
 
-@dataclass(frozen=True)
-class Violation:
-    """Where a set breaks a promise: what :meth:`Promise.find_violation` returns. ``str`` says it in one line.
-
-    Attributes
-    ----------
-    message
-        What is wrong, in one line.
-    realization
-        Index of the set.
-    points
-        Indices of the points that show it.
-    axes, box
-        The dimensions, and the interval along each of them, of the cell that holds too many points or too few; empty
-        if no cell is at fault.
-
-    Examples
-    --------
-    >>> import samplekit
-    >>> found = samplekit.LatinStrata().find_violation([[0.1, 0.7], [0.4, 0.2]])
-    >>> found.points, found.axes, found.box
-    ((0, 1), (0,), ((0.0, 0.5),))
-    """
-
-    message: str
-    realization: int
-    points: tuple[int, ...]
-    axes: tuple[int, ...] = ()
-    box: tuple[tuple[float, float], ...] = ()
-
-    def __str__(self) -> str:
-        return self.message
-
-
-@dataclass(frozen=True)
 class Promise(ABC):
     """A property that a sampler guarantees for every set.
 
@@ -129,7 +94,7 @@ class Promise(ABC):
         UsageError
             The array has another number of axes.
         """
-        from samplekit._specs.point_cells import find_uneven_cell
+        from samplekit._specs.point_cells import Violation, find_uneven_cell
 
         sets = _as_sets(points)
         found = find_uneven_cell(sets, self.cells(*sets.shape[1:]))
@@ -243,7 +208,6 @@ class Net(Promise):
         )
 
 
-@dataclass(frozen=True)
 class Strata(Promise):
     """Promise: every cell of some grids holds exactly one point. What the three kinds of strata have in common."""
 
@@ -422,7 +386,7 @@ class MinimumDistance(Promise):
 
     def find_violation(self, points: ArrayLike) -> Violation | None:
         """Find two points that are too close; see :meth:`Promise.find_violation`."""
-        from samplekit._specs.point_cells import closest_pair
+        from samplekit._specs.point_cells import Violation, closest_pair
 
         sets = _as_sets(points)
         promised = self.distance(*sets.shape[1:])

@@ -1,4 +1,4 @@
-"""Which scene, sampler and count there is a row for, and what is asked for in vain."""
+"""List the rows of a study, and the requested combinations that cannot be run."""
 
 from __future__ import annotations
 
@@ -20,9 +20,16 @@ _MOST_STEPS = 64
 
 @dataclass(frozen=True)
 class Cell:
-    """A row to be: ``asked`` are the counts that led to ``count``, ``replaced`` says why they are others.
+    """A row of a study, before it is measured.
 
-    ``shared_draw``: the set is a prefix of those of larger counts of which the same is said.
+    Attributes
+    ----------
+    count
+        Samples in each pixel.
+    asked, replaced
+        The requested counts that ``count`` stands for; the reason, if the sampler cannot make one of them.
+    shared_draw
+        Whether the set is a prefix of the larger sets of the sampler, so that one draw serves all of them.
     """
 
     scene: str
@@ -73,7 +80,7 @@ def lay_out(request: Request, subjects: Subjects) -> tuple[list[Cell], list[Left
 
 
 def _possible(scene: ConfiguredScene, sampler: ConfiguredSampler, asked: int) -> tuple[int | None, str]:
-    """The largest count up to ``asked`` that there can be, and why it is another; None: there is none."""
+    """Return the largest possible count up to ``asked`` (None: none), and the reason if it is another."""
     first_reason, count = "", asked
     for _ in range(_MOST_STEPS):
         try:

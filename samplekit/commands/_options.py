@@ -7,7 +7,9 @@ import typer
 from samplekit.commands._completion import complete_sampler
 
 JsonOption = Annotated[bool, typer.Option("--json", help="Print one JSON object instead of a table.")]
+"""``--json``: print one JSON object on standard output, and nothing else."""
 SeedOption = Annotated[str, typer.Option("--seed", metavar="K", help="Seed, from 0 to 2^64 - 1.")]
+"""``--seed K``: a text, which :func:`parse_seed` reads."""
 SamplerOption = Annotated[
     str,
     typer.Option(
@@ -18,3 +20,4 @@ SamplerOption = Annotated[
         autocompletion=complete_sampler,
     ),
 ]
+"""``--sampler``, ``-s``: a sampler with its options and its randomizer, completed by the shell."""

@@ -3,7 +3,7 @@
 Shirley and Chiu 1997, "A low distortion map between disk and square", Journal of Graphics Tools 2(3). Squares around
 the middle become circles: with the longer offset a and the shorter one b the point has radius a and angle pi/4 b/a from
 the longer one's axis. Sine and cosine of pi/4 t are polynomials in t^2 on [-1, 1], fitted as those of
-:mod:`samplekit.kernels._cosine`, within 6e-17: without branches the map vectorises.
+:mod:`samplekit.kernels._cosine` (``benchmarks/coefficients.py``), within 6e-17: without branches the map vectorises.
 """
 
 from __future__ import annotations

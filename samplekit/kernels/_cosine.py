@@ -3,9 +3,10 @@
 The angle is reduced to |t| <= 1/2 without error, so that the accuracy is the same in every turn. On that interval
 cos(2 pi t) = 1 + c1 z + ... + c10 z^10 with z = t^2. The coefficients were fitted one after the other in mpmath at 70
 digits, each by least squares at 80 Chebyshev points of z in [0, 1/4] with those before it already rounded to float64
-(the idea of fpminimax: Brisebarre and Chevillard 2007, "Efficient polynomial L-infinity approximations", ARITH 18).
-The rounded polynomial is within 3.8e-17 of the cosine. With the rounding of its evaluation the largest error found is
-6.2e-16, over 4e7 random angles and an even grid; the largest of those was measured again with mpmath.
+(the idea of fpminimax: Brisebarre and Chevillard 2007, "Efficient polynomial L-infinity approximations", ARITH 18):
+``benchmarks/coefficients.py`` makes them again. The rounded polynomial is within 3.8e-17 of the cosine. With the
+rounding of its evaluation the largest error found is 6.2e-16, over 4e7 random angles and an even grid; the largest of
+those was measured again with mpmath.
 """
 
 from __future__ import annotations

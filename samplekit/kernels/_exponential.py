@@ -3,8 +3,9 @@
 exp(-x) = 2^-n exp(r) with n the nearest whole number to x / ln 2 and |r| <= ln(2) / 2 (Cody and Waite 1980, "Software
 Manual for the Elementary Functions", chapter 6); the fused multiply-add makes their two-part ln 2 exact enough.
 exp(r) = 1 + r + c2 r^2 + ... + c11 r^11: the coefficients were fitted one after the other in mpmath at 70 digits, each
-by least squares at 80 Chebyshev points with those before it already rounded to float64. The rounded polynomial is
-within 4.7e-18 relative; what remains is the rounding of its evaluation.
+by least squares at 80 Chebyshev points with those before it already rounded to float64
+(``benchmarks/coefficients.py``). The rounded polynomial is within 4.7e-18 relative; what remains is the rounding of its
+evaluation.
 """
 
 from __future__ import annotations

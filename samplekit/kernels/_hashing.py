@@ -23,7 +23,9 @@ _S11 = U64(11)
 _S32 = U64(32)
 
 TWO_M53 = 2.0**-53
+"""2^-53, the distance of neighbouring values of :func:`unit`."""
 TWO_M32 = 2.0**-32
+"""2^-32, which makes a fraction of a word of 32 bits."""
 ONE_MINUS_EPSILON = 1.0 - 2.0**-53
 """The largest float64 below 1."""
 

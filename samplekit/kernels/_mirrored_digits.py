@@ -29,7 +29,12 @@ _DIGITS = _U64(0x5BE0CD19137E2179)
 _ORDER = _U64(0x1F83D9ABFB41BD6B)
 TABLE = 2048
 """Points of a table, at most, or the base where that is larger."""
-PLAIN, SHIFTED, PERMUTED = range(3)
+PLAIN = 0
+"""Mode of :func:`fill_mirrored`: the digits as they are."""
+SHIFTED = 1
+"""Mode of :func:`fill_mirrored`: one random shift of the digits for each place."""
+PERMUTED = 2
+"""Mode of :func:`fill_mirrored`: one random permutation of the digits for each place."""
 
 
 @helper

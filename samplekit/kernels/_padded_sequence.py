@@ -27,12 +27,13 @@ _SCRAMBLE = _U64(0x9159015A3070DD17)
 _GROUP = 11
 """Bits of the index that one table covers."""
 GROUP_SIZE = 1 << _GROUP
+"""Number of entries of a table: one for each value of 11 bits of the index."""
 
 
 def group_tables(columns: NDArray[np.uint32]) -> NDArray[np.uint32]:
     """Return the digits that each group of 11 bits of the index adds, uint32[D, 3, 2048], with digit 1 in bit 0.
 
-    ``columns`` uint32[D, 32]: as :func:`samplekit.kernels._digital_net.net_coordinates` takes them.
+    ``columns`` uint32[D, 32]: as :func:`samplekit.kernels.net_coordinates` takes them.
     """
     mirrored = np.zeros_like(columns)
     for bit in range(BITS):

@@ -30,6 +30,17 @@ class Display:
         The first of them.
     figure_
         Their figure.
+
+    Examples
+    --------
+    >>> from samplekit.plots import Display, make_axes
+    >>> class Line(Display):
+    ...     def plot(self, ax=None):
+    ...         self.choose_axes(ax, None, 1, lambda: make_axes([(0, 0)], 3.0, 2.0, title="a line"))
+    ...         self.ax_.plot([0, 1], [0, 1])
+    ...         return self
+    >>> len(Line().plot().figure_.axes)
+    1
     """
 
     axes_: list[Axes]

@@ -64,8 +64,8 @@ class PointsDisplay(Display):
     --------
     >>> from samplekit.plots import PointsDisplay
     >>> display = PointsDisplay.from_sampler("jittered", count=96, dims=2, seed=0).plot()
-    >>> display.ax_.get_xlim()
-    (0.0, 1.0)
+    >>> display.ax_.get_xlabel(), display.ax_.get_ylabel()
+    ('$x_{0}$', '$x_{1}$')
     """
 
     def __init__(
@@ -113,7 +113,15 @@ class PointsDisplay(Display):
 
     @classmethod
     def of_set(cls, source: ConfiguredSampler, points: NDArray[np.float64], seed: int) -> PointsDisplay:
-        """Make the display of the first set of a sampler, float64[N, D], which was made already."""
+        """Make the display of a sampler's first set, which was made already.
+
+        Parameters
+        ----------
+        source, seed
+            What made the set.
+        points
+            float64[N, D] in [0, 1].
+        """
         count, dims = points.shape
         number = "1 point" if count == 1 else f"{count} points"
         return cls(points, source.spec.promises, f"{source.text}, {number} in {dims}D, seed {seed}, realisation 0")

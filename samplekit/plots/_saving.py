@@ -45,6 +45,15 @@ def save(figure: Figure, path: str | os.PathLike[str], metadata: Mapping[str, An
         Another ending, or a path that cannot be written to.
     SamplekitError
         The metadata is no JSON, or the writing failed.
+
+    Examples
+    --------
+    >>> from samplekit.plots import make_axes, save
+    >>> figure, axes = make_axes([(0, 0)], 3.0, 2.0)
+    >>> save(figure, "plot.txt")
+    Traceback (most recent call last):
+        ...
+    samplekit._errors.UsageError: a figure is written to a name that ends in .png, .svg or .pdf, not '.txt'
     """
     path = Path(path)
     write_group([(path, figure_writer(figure, path.suffix, metadata))])
@@ -62,6 +71,13 @@ def figure_writer(figure: Figure, ending: str, metadata: Mapping[str, Any] | Non
         As in :func:`save`.
     ending
         Of the file's name: ``.png``, ``.svg`` or ``.pdf``.
+
+    Examples
+    --------
+    >>> from samplekit.plots import figure_writer, make_axes
+    >>> figure, axes = make_axes([(0, 0)], 3.0, 2.0)
+    >>> callable(figure_writer(figure, ".svg", {"seed": "1"}))
+    True
     """
     if ending.lower() not in ENDINGS:
         raise UsageError(f"a figure is written to a name that ends in .png, .svg or .pdf, not {ending!r}")

@@ -82,6 +82,13 @@ class StabilityDisplay(Display):
     ------
     UsageError
         There are no cells of this scene, or cells of several where none was chosen; some are missing.
+
+    Examples
+    --------
+    >>> import samplekit
+    >>> display = samplekit.stability("gaussian:sigma=1e-8", "random", [16], realizations=4).plot()
+    >>> [text.get_text() for text in display.ax_.texts]
+    ['no hits']
     """
 
     def __init__(self, stability: Stability, scene: str | None = None) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -102,6 +103,8 @@ class StudyDisplay(Display):
         UsageError
             There is nothing to draw: all errors are 0, or no times were taken.
         """
+        from matplotlib.ticker import NullFormatter
+
         if not self.rows:
             what = "no times were taken" if self.against == "time" else "no error is above 0"
             raise UsageError(f"there is nothing to draw of {self.scene}: {what}")
@@ -117,8 +120,13 @@ class StudyDisplay(Display):
             ax.errorbar([self._place(row) for row in rows], estimates, reach, label=label, elinewidth=0.8, **kind)
         ax.set(xlabel=self._x_label(), ylabel="mean squared error")
         ax.grid(color=GRID, linewidth=0.6)
+        ax.set_ylim(*_with_two_powers(*ax.get_ylim()))
+        ax.yaxis.set_minor_formatter(NullFormatter())
         if self.against == "samples":
             _mark_counts(ax, [row.count for row in self.rows])
+        else:
+            ax.set_xlim(*_with_two_powers(*ax.get_xlim()))
+            ax.xaxis.set_minor_formatter(NullFormatter())
         legend = ax.legend(loc="upper left", bbox_to_anchor=(1.01, 1.02), borderaxespad=0.0, labelspacing=0.35)
         if any(len(rows) > 1 for rows, _, _ in curves):
             _draw_slopes(ax, legend.get_window_extent().y0, "N" if self.against == "samples" else "t")
@@ -152,8 +160,19 @@ class StudyDisplay(Display):
             [(0, 0)], _WIDTH, max(_HEIGHT, _LINE * len(labels) + 1.1),
             title=f"{self.scene}: error against {self.against}",
             caption=[f"{size}, {results.trials} trials, 95 % intervals{cost}"],
-            left=0.75, right=max(0.8, *(text_width(label) for label in labels)) + 0.6,
+            left=0.65, right=max(0.8, *(text_width(label) for label in labels)) + 0.6,
         )  # fmt: skip
+
+
+def _with_two_powers(low: float, high: float) -> tuple[float, float]:
+    """Widen limits until two powers of ten lie within: these alone are written along the axis."""
+    below, above = math.floor(math.log10(low)), math.ceil(math.log10(high))
+    inside = [power for power in range(below, above + 1) if low <= 10.0**power <= high]
+    if len(inside) < 2:
+        nearer = low / 10.0**below < 10.0**above / high
+        low = 10.0**below if nearer or not inside else low
+        high = high if nearer and inside else 10.0**above
+    return low, high
 
 
 def _mark_counts(ax: Axes, counts: list[int]) -> None:

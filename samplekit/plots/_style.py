@@ -97,6 +97,12 @@ def curve_style(number: int, *, marked: bool = True) -> dict[str, Any]:
         Fifty-six curves with markers, and thirty-two without, have styles of their own; then they repeat.
     marked
         Whether points of the curve have markers. Where they have none, the kind of line differs as the colour does.
+
+    Examples
+    --------
+    >>> from samplekit.plots import curve_style
+    >>> curve_style(1, marked=False)
+    {'color': '#d55e00', 'linestyle': '--', 'linewidth': 1.2}
     """
     colour = COLOURS[number % len(COLOURS)]
     if not marked:
@@ -150,6 +156,13 @@ def make_axes(
         A ``matplotlib.figure.Figure``.
     axes
         The panels in the order of ``places``.
+
+    Examples
+    --------
+    >>> from samplekit.plots import make_axes
+    >>> figure, axes = make_axes([(0, 0), (0, 1)], 3.0, 2.0, left=0.5, right=0.1, gap=(0.4, 0.0))
+    >>> figure.get_size_inches()[0]
+    np.float64(7.0)
     """
     from matplotlib.figure import Figure
 
@@ -230,6 +243,14 @@ def add_bar(ax: Axes, image: ScalarMappable, label: str, ticks: Sequence[float],
     Returns
     -------
     matplotlib.colorbar.Colorbar
+
+    Examples
+    --------
+    >>> from samplekit.plots import add_bar, make_axes
+    >>> figure, (ax,) = make_axes([(0, 0)], 3.0, 3.0, right=0.8)
+    >>> bar = add_bar(ax, ax.imshow([[0.0, 1.0], [2.0, 3.0]], vmax=2.0), "power", [0.0, 1.0, 2.0], "max")
+    >>> bar.ax.get_ylabel()
+    'power'
     """
     width = 0.1 * ax.figure.dpi / ax.bbox.width
     bar = ax.figure.colorbar(image, cax=ax.inset_axes((1.0 + width, 0.0, width, 1.0)), extend=extend)

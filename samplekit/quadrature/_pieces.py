@@ -108,7 +108,7 @@ def piece_nodes(
     cells
         float64[4, C]: left, right, top, bottom.
     circles, lines
-        As in :class:`samplekit.quadrature._pixel_means.Curves`.
+        As in :class:`samplekit.quadrature.Curves`.
     nodes, weights
         Of a rule on [0, 1].
     points, shares, ends

@@ -34,12 +34,15 @@ def test_a_bar_goes_when_all_is_done_and_not_when_the_next_is(bar):
 def test_an_interrupt_that_was_lost_ends_the_work_all_the_same(command, tmp_path, monkeypatch):
     """Python drops exceptions that are raised within callbacks of its own; this one is dropped here."""
 
-    def interrupt_and_lose_it(*_):
+    check = renderer._check_metrics
+
+    def interrupt_and_lose_it(*arguments):
         with contextlib.suppress(KeyboardInterrupt):
             signal.raise_signal(signal.SIGINT)
+        check(*arguments)
 
     with monkeypatch.context() as patched:
-        patched.setattr(renderer, "_fill_constant", interrupt_and_lose_it)
+        patched.setattr(renderer, "_check_metrics", interrupt_and_lose_it)
         # Whoever runs the tests may have a handler of its own.
         patched.setattr(signal, "getsignal", lambda _: signal.default_int_handler)
         done = command("render", "--sampler", "random", "--spp", "4", "--size", "64")

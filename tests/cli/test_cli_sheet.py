@@ -81,8 +81,8 @@ def test_json_has_the_record_and_the_words(capsys):
 
 def test_a_range_without_end_is_json(capsys, monkeypatch):
     spec = SamplerSpec("endless", "a:B", "", options=(Option("far", 1.0, "", 0.0, float("inf")),))
-    offer = type(registry().find("sampler", "random"))(spec, PLUGIN)
-    monkeypatch.setitem(registry()._offers["sampler"], "endless", [offer])
+    offer = type(registry().find("sampler", "random"))(spec, PLUGIN, "endless")
+    monkeypatch.setitem(registry()._registered["sampler"], "endless", [offer])
     (record,) = json.loads(printed(capsys, "samplers", "endless", "--json"))["samplers"]
     assert record["options"][0]["maximum"] == "inf"
     assert record["options"][0]["minimum"] == 0.0

@@ -7,11 +7,13 @@ import pytest
 import samplekit_spectrum
 
 import samplekit
+import samplekit.plots
 
 # The marker of hooks is pluggy's.
 NAMES = [(samplekit, name) for name in samplekit.__all__ if name != "hookimpl"] + [
     (samplekit_spectrum, name) for name in samplekit_spectrum.__all__
 ]
+NAMES += [(samplekit.plots, name) for name in samplekit.plots.__all__ if callable(getattr(samplekit.plots, name))]
 
 
 @pytest.mark.parametrize(("module", "name"), NAMES, ids=[name for _, name in NAMES])

@@ -105,6 +105,22 @@ def test_marks_of_the_counts_can_be_read(study, apart, counts):
     assert all(counts[0] <= mark <= counts[-1] for mark in marks)
 
 
+@pytest.mark.parametrize("spread", [0.0, 1e-3, 0.1, 1.0, 8.0, 1e6])
+def test_numbers_along_axes_of_any_length_can_be_read(study, apart, spread):
+    rows = [
+        replace(
+            row,
+            time=2.15e-5 * (1.0 + spread * place),
+            mse=replace(row.mse, estimate=3e-7 * (1.0 + spread * place), low=None, high=None),
+        )
+        for place, row in enumerate(row for row in study.rows if row.scene == "disk" and row.sampler == "random")
+    ]
+    made = replace(study, scenes=["disk"], rows=rows, fits=[]).plot(against="time")
+    apart(made.figure_)
+    for low, high in (made.ax_.get_xlim(), made.ax_.get_ylim()):
+        assert sum(low <= 10.0**power <= high for power in range(-20, 20)) >= 2
+
+
 def test_many_samplers_with_long_names(study, apart):
     rows = [row for row in study.rows if row.scene == "disk" and row.sampler == "random"]
     names = [f"sampler:number={number},path=$a_{number}$" for number in range(30)]

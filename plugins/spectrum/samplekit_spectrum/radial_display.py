@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 _INTERVAL = 2.576
 _CURVE, _GUIDE, _GRID = COLOURS[1], "#6a7380", "#e3e6eb"
-_ROOTS = {1: "$N$", 2: r"$\sqrt{N}$", 3: r"$\sqrt[3]{N}$"}
+_ROOTS = {1: "$N$", 2: "$N^{1/2}$", 3: "$N^{1/3}$"}
 
 
 class RadialDisplay(Display):

@@ -128,7 +128,7 @@ def test_the_radial_mean_is_a_curve_with_its_interval():
     assert np.array_equal(curve.get_ydata(), radial.anisotropy)
     assert display.ax_.get_xlim() == lower.get_xlim() == (0.0, 16.0)
     assert texts_of(display.figure_)[1] == "mean of 9 realizations; mean over rings, band: 99 % interval"
-    assert [text.get_text() for text in display.ax_.texts] == [r"$\sqrt{N}$", "white noise"]
+    assert [text.get_text() for text in display.ax_.texts] == ["$N^{1/2}$", "white noise"]
     assert "isotropic,\n9 realizations:\n\N{MINUS SIGN}9.54 dB" in [text.get_text() for text in lower.texts]
 
 

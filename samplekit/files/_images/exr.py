@@ -64,7 +64,7 @@ def write_parts(
 
 
 def parts_writer(parts: Mapping[str, ArrayLike], metadata: Mapping[str, Any], window: Window | None = None) -> Writer:
-    """Make a writer for `samplekit.files._writing.write_group`, with the parameters and errors of `write_parts`.
+    """Make a writer for `samplekit.files.write_group`, with the parameters and errors of `write_parts`.
 
     The input is checked here, before anything is written.
     """

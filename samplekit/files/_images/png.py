@@ -67,7 +67,7 @@ def write_png(path: Path, pixels: NDArray[np.uint8], metadata: Mapping[str, Any]
 
 
 def png_writer(pixels: NDArray[np.uint8], metadata: Mapping[str, Any]) -> Writer:
-    """Make a writer for `samplekit.files._writing.write_group`, with the parameters and errors of `write_png`.
+    """Make a writer for `samplekit.files.write_group`, with the parameters and errors of `write_png`.
 
     The input is checked here, before anything is written.
     """

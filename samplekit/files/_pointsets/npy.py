@@ -22,7 +22,7 @@ _HEADERS = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.r
 
 
 def npy_writer(points: NDArray[np.float64]) -> Writer:
-    """Make a writer for `samplekit.files._writing.write_group` of float64[R, N, D], to be read with `numpy.load`."""
+    """Make a writer for `samplekit.files.write_group` of float64[R, N, D], to be read with `numpy.load`."""
     points = np.ascontiguousarray(points, np.float64)
 
     def write(temporary: Path) -> None:

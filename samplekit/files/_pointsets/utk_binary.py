@@ -31,7 +31,7 @@ _MOST = 2**32 - 1
 
 
 def utk_binary_writer(points: NDArray[np.float64]) -> Writer:
-    """Make a writer for `samplekit.files._writing.write_group` of float64[R, N, D].
+    """Make a writer for `samplekit.files.write_group` of float64[R, N, D].
 
     Raises
     ------
