@@ -15,8 +15,7 @@ import time
 
 import numpy as np
 
-from samplekit import Realizations
-from samplekit import ConfiguredSampler
+from samplekit import ConfiguredSampler, Realizations
 from samplekit import sampler as configured_sampler
 from samplekit._registry import registry
 from samplekit.testing._forced_bits import forced_extremes

@@ -30,7 +30,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Find what is judged: a wrong name is one line, before any test is collected."""
+    """Look up what is judged: a wrong name ends in one line, before any test is collected."""
     samplers, scenes = config.getoption("--sampler"), config.getoption("--scene")
     config.stash[_CASES] = []
     if not samplers and not scenes:
