@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING
@@ -80,10 +81,9 @@ def _quadrature(subject: SceneSubject, box: Array, tests: int) -> tuple[float, f
     if subject.dims == 2:
         previous = math.nan
         for nodes in _NODES[: 2 if subject.quick else None]:
-            x, w = np.polynomial.legendre.leggauss(nodes)
-            u = np.stack([axis.ravel() for axis in np.meshgrid((x + 1) / 2, (x + 1) / 2)])
+            u, weights = _product_rule(nodes)
             values = subject.values(u, box)
-            mean = float(np.outer(w, w).ravel() @ values) / 4.0
+            mean = float(weights @ values) / 4.0
             scale = max(1.0, abs(mean))
             # Rules that see one value agree whatever passes between their nodes: a needle, a spike.
             if abs(mean - previous) <= _SMOOTH * scale and np.ptp(values) > 0.0:
@@ -99,6 +99,15 @@ def _quadrature(subject: SceneSubject, box: Array, tests: int) -> tuple[float, f
     return mean, threshold * error + 2.0 / _LATTICE + _SMOOTH * abs(mean)
 
 
+@functools.cache
+def _product_rule(nodes: int) -> tuple[Array, Array]:
+    """Return the nodes float64[2, M] of a Gauss-Legendre rule on the unit square, and weights whose sum is 4."""
+    x, w = np.polynomial.legendre.leggauss(nodes)
+    return np.stack([axis.ravel() for axis in np.meshgrid((x + 1) / 2, (x + 1) / 2)]), np.outer(w, w).ravel()
+
+
+# Made once for all pixels: making the rules and the lattices takes longer than using them.
+@functools.cache
 def _shifted_lattices(dims: int) -> list[Array]:
     """Return Kronecker sets with square roots of primes as steps and random shifts: unbiased, and nobody's sampler."""
     base = np.arange(_LATTICE)[None, :] * np.sqrt(np.array(_PRIMES[:dims], float))[:, None]
