@@ -13,7 +13,7 @@ import psutil
 
 from samplekit import sampler as configured_sampler
 from samplekit import scene as configured_scene
-from samplekit._stability.cell import measure
+from samplekit._stability.measurement import measure
 
 
 def main() -> None:

@@ -7,6 +7,8 @@ from ._bases.sampler import Sampler as Sampler
 from ._bases.scene import Scene as Scene
 from ._choices import Choice as Choice
 from ._choices import parse_choice as parse_choice
+from ._compare import InterruptedStudy as InterruptedStudy
+from ._compare import compare as compare
 from ._configured.points import points as points
 from ._configured.randomizer import ConfiguredRandomizer as ConfiguredRandomizer
 from ._configured.randomizer import randomizer as randomizer
@@ -54,10 +56,8 @@ from ._specs import SamplerSpec as SamplerSpec
 from ._specs import SceneSpec as SceneSpec
 from ._specs.counts import grid_sides as grid_sides
 from ._specs.point_cells import Violation as Violation
-from ._stability.sweep import Stability as Stability
+from ._stability.results import Stability as Stability
 from ._stability.sweep import stability as stability
-from ._study.compare import InterruptedStudy as InterruptedStudy
-from ._study.compare import compare as compare
 from ._study.results import Results as Results
 from ._threads import check_threads as check_threads
 

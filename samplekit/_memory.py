@@ -1,4 +1,4 @@
-"""Whether there is the memory for a request: asked before a system that promises more than it has ends the process."""
+"""Check that the memory for a request is free. Some systems promise more than they have and then end the process."""
 
 from __future__ import annotations
 
@@ -6,21 +6,21 @@ _UNQUESTIONED_BYTES = 2**28
 
 
 def check_memory(needed: int, what: str, advice: str = "") -> None:
-    """Raise unless ``needed`` bytes are free; small requests are not questioned.
+    """Check that so many bytes are free; small requests are not checked.
 
     Parameters
     ----------
     needed
-        Bytes.
+        Number of bytes.
     what
-        What takes them, in the plural, for the message.
+        What needs them, in the plural, for the message.
     advice
-        What would help, from its first punctuation mark on.
+        The end of the message: what would help, with the punctuation before it.
 
     Raises
     ------
     UsageError
-        They are not.
+        Fewer bytes are free.
     """
     if needed <= _UNQUESTIONED_BYTES:
         return

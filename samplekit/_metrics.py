@@ -1,8 +1,8 @@
-"""How far an image is from its reference, in numbers.
+"""Metrics: numbers that tell how far an image is from its reference.
 
-Differences are scaled by a power of two before they are squared, and scaled back after the square root: root mean
-squares are right for any finite input, also where the mean square itself is beyond the range of float64 (it is then 0
-or infinity, as stored).
+Differences are scaled by a power of two before they are squared, and scaled back after the square root. So root mean
+squares are right for any finite input, even if the mean square itself is beyond the range of float64; it is then 0 or
+infinity.
 """
 
 from __future__ import annotations
@@ -25,17 +25,20 @@ BLUR_SIGMA = 2.0
 """Standard deviation in pixels of the Gaussian of ``blurred_mse``."""
 BLUR_RADIUS = 8
 """Pixels after which that Gaussian is cut off: four standard deviations."""
+BLUR_WEIGHTS = np.exp(-0.5 * np.square(np.arange(BLUR_RADIUS + 1) / BLUR_SIGMA))
+"""float64[9]: weights of that Gaussian at 0 to 8 pixels; with those to the other side their sum is 1."""
+BLUR_WEIGHTS /= BLUR_WEIGHTS[0] + 2.0 * BLUR_WEIGHTS[1:].sum()
 
 
 def metrics(image: ArrayLike, reference: ArrayLike, *, ssim: bool = False, flip: bool = False) -> dict[str, float]:
-    """Metrics of an image against its reference, over all pixels in which both are finite.
+    """Compute metrics of an image against its reference, over all pixels in which both are finite.
 
     Parameters
     ----------
     image, reference
-        float64[h, w], linear; of one shape, with at least one pixel.
+        float64[h, w], linear; both of one shape, with at least one pixel.
     ssim, flip
-        Whether to compute these as well.
+        Whether to compute these metrics as well.
 
     Returns
     -------
@@ -45,22 +48,22 @@ def metrics(image: ArrayLike, reference: ArrayLike, *, ssim: bool = False, flip:
         ``mse``, ``rmse``, ``mae``, ``max_error``
             Mean of e², its square root, mean of the magnitude of e, its maximum.
         ``bias``
-            Mean of e, from an exactly rounded sum: what cancels, cancels.
+            Mean of e, from an exactly rounded sum, so that errors of both signs cancel exactly.
         ``psnr``
             10 log10(1 / mse), in decibels, for a peak of 1; infinity where every e is 0.
         ``relative_mse``
             Mean of e² / (reference² + 0.01).
         ``blurred_mse``
             Mean square of e after a Gaussian blur of sigma 2 pixels (cut off at 8 pixels, normalised to 1, the image
-            reflected at its edges, the edge pixel repeated): what remains of an error that is blue noise is small.
-            Around pixels that are not finite the kernel is normalised over the others.
+            reflected at its edges, the edge pixel repeated). It is small for errors that are blue noise. Around pixels
+            that are not finite the kernel is normalised over the others.
         ``invalid_pixels``
-            Number of pixels that are NaN or infinite in the image or the reference. All metrics leave them out; if no
-            pixel is left, they are NaN.
+            Number of pixels that are NaN or infinite in the image or the reference. All metrics leave them out, and are
+            NaN if no pixel is left.
         ``ssim``
             Mean structural similarity (Wang et al. 2004) for a data range of 1, in windows of 7 x 7 pixels, as
-            ``skimage.metrics.structural_similarity`` has it; windows with an invalid pixel are left out.
-            NaN where squares of the values themselves overflow.
+            ``skimage.metrics.structural_similarity`` computes it; windows with an invalid pixel are left out. NaN if
+            squares of the values themselves overflow.
         ``flip``
             Mean FLIP error (Andersson et al. 2020), values clamped to [0, 1]; invalid pixels are black in both images,
             and left out of the mean.
@@ -68,9 +71,9 @@ def metrics(image: ArrayLike, reference: ArrayLike, *, ssim: bool = False, flip:
     Raises
     ------
     UsageError
-        Other shapes; SSIM of an image with fewer than 7 x 7 pixels.
+        The shapes differ, there is no pixel, or SSIM is asked for with fewer than 7 x 7 pixels.
     SamplekitError
-        FLIP with an OpenImageIO that has none.
+        FLIP is asked for, and this OpenImageIO does not have it.
     """
     image = np.asarray(image, np.float64)
     reference = np.asarray(reference, np.float64)
@@ -95,7 +98,7 @@ def metrics(image: ArrayLike, reference: ArrayLike, *, ssim: bool = False, flip:
 
 
 def _errors(image: Array, reference: Array, valid: NDArray[np.bool_]) -> dict[str, float]:
-    # Only values near the largest float: dividing the smallest would lose their digits.
+    # Only values near the largest float are divided: the smallest would lose digits.
     shrink = 8 if max(np.abs(image).max(), np.abs(reference).max()) > 2.0**1000 else 0
     error = _times_power_of_two(image, -shrink) - _times_power_of_two(reference, -shrink)
     scaled, power = _scaled(error)
@@ -130,7 +133,7 @@ def _times_power_of_two(values: Array, exponent: int) -> Array:
 
 
 def _floored(reference: Array) -> Array:
-    """Return sqrt(reference^2 + 1e-2), what the relative error is relative to."""
+    """Return sqrt(reference^2 + 1e-2), by which the error is divided for the relative error."""
     if np.abs(reference).max() > 2.0**500:
         return np.hypot(reference, 0.1)
     floored: Array = np.sqrt(reference * reference + 1e-2)
@@ -155,8 +158,16 @@ def _exact_mean(values: Array) -> float:
 
 
 def blur(error: Array, valid: NDArray[np.bool_]) -> Array:
-    """The error after the Gaussian blur of ``blurred_mse``, invalid pixels (0 in ``error``) left out of the kernel."""
-    # Written out, it takes as long as scipy.ndimage's and saves its import, which takes longer than either.
+    """Return the error after the Gaussian blur of ``blurred_mse``.
+
+    Parameters
+    ----------
+    error
+        float64[h, w], 0 where it is not valid.
+    valid
+        bool[h, w]. The kernel leaves out the pixels that are not valid.
+    """
+    # This takes as long as the blur of scipy.ndimage and saves its import, which takes longer than either.
     blurred = _convolved(_convolved(error, 0), 1)
     if valid.all():
         return blurred
@@ -165,9 +176,7 @@ def blur(error: Array, valid: NDArray[np.bool_]) -> Array:
 
 
 def _convolved(values: Array, axis: int) -> Array:
-    offsets = np.arange(BLUR_RADIUS + 1)
-    kernel = np.exp(-0.5 * np.square(offsets / BLUR_SIGMA))
-    kernel /= kernel[0] + 2.0 * kernel[1:].sum()
+    """Blur along one axis."""
     length = values.shape[axis]
     padding = [(0, 0), (0, 0)]
     padding[axis] = (BLUR_RADIUS, BLUR_RADIUS)
@@ -176,10 +185,10 @@ def _convolved(values: Array, axis: int) -> Array:
     def shifted(by: int) -> Array:
         return padded[by : by + length] if axis == 0 else padded[:, by : by + length]
 
-    result: Array = shifted(BLUR_RADIUS) * kernel[0]
+    result: Array = shifted(BLUR_RADIUS) * BLUR_WEIGHTS[0]
     for offset in range(1, BLUR_RADIUS + 1):
         pair = shifted(BLUR_RADIUS - offset) + shifted(BLUR_RADIUS + offset)
-        pair *= kernel[offset]
+        pair *= BLUR_WEIGHTS[offset]
         result += pair
     return result
 
@@ -188,18 +197,19 @@ _SSIM_WINDOW = 7
 
 
 def check_ssim(size: Sequence[int]) -> None:
-    """Raise if an image of ``size`` (width, height) is too small for SSIM.
+    """Check that an image of ``size`` (width, height) is large enough for SSIM.
 
     Raises
     ------
     UsageError
-        It has fewer than 7 x 7 pixels.
+        The image has fewer than 7 pixels along a side.
     """
     if min(size) < _SSIM_WINDOW:
         raise UsageError(f"ssim needs at least 7 x 7 pixels, the image has {size[0]} x {size[1]}: leave ssim out")
 
 
 def _ssim(image: Array, reference: Array, valid: NDArray[np.bool_]) -> float:
+    """Return the mean structural similarity over the windows whose pixels are all valid."""
     from skimage.metrics import structural_similarity
 
     with np.errstate(all="ignore"):

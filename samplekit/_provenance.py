@@ -1,10 +1,11 @@
-"""How an image was made: what ``samplekit info`` reads back, enough to make it again."""
+"""How an image was made: the metadata from which ``samplekit info`` tells how to make it again."""
 
 from __future__ import annotations
 
 import math
 import platform
 import shlex
+from functools import cache
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
 
 SCHEMA = "samplekit.rendering/1"
 _LIBRARIES = ("numpy", "numba", "scipy", "OpenImageIO")
+_library_version = cache(version)
 
 
 def versions() -> dict[str, str]:
@@ -29,15 +31,19 @@ def versions() -> dict[str, str]:
     """
     from samplekit import __version__
 
-    return {"samplekit": __version__, "python": platform.python_version()} | {
-        name: version(name) for name in _LIBRARIES
-    }
+    libraries = {name: _library_version(name) for name in _LIBRARIES}
+    return {"samplekit": __version__, "python": platform.python_version(), **libraries}
 
 
 def command(plan: Plan, metrics: Collection[str] = ()) -> str:
-    """The command that makes this image: without what the image does not depend on (output, threads).
+    """Return the command that makes an image, without options that the image does not depend on (output, threads).
 
-    ``metrics``: the names of those that were computed; some are computed on request alone.
+    Parameters
+    ----------
+    plan
+        The plan of the rendering.
+    metrics
+        Names of the metrics that were computed; some are computed only on request.
     """
     pixels = plan.pixels
     words = ["samplekit", "render", "--scene", pixels.scene.text, "--sampler", plan.sampler.text]
@@ -52,7 +58,7 @@ def command(plan: Plan, metrics: Collection[str] = ()) -> str:
 
 
 def describe(rendering: Rendering) -> dict[str, Any]:
-    """The provenance of a rendering; the same for the same command, so no times and no paths."""
+    """Return the metadata of a rendering. It has no times and no paths, so the same command gives the same bytes."""
     plan, pixels, scene = rendering.plan, rendering.plan.pixels, rendering.plan.pixels.scene
     return {
         "schema": SCHEMA,
@@ -75,5 +81,5 @@ def describe(rendering: Rendering) -> dict[str, Any]:
 
 
 def finite(numbers: Mapping[str, float]) -> dict[str, float | None]:
-    """The numbers for JSON, which knows no infinity: those that are not finite become null."""
+    """Return the numbers for JSON, which has no infinity: numbers that are not finite become None."""
     return {name: number if math.isfinite(number) else None for name, number in numbers.items()}

@@ -1,4 +1,4 @@
-"""Strangers' values and errors in a message: on one line, short, and whatever their own text functions do."""
+"""Values and errors of third-party code in a message: on one line, short, and safe if their ``repr`` fails."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _LONGEST_REASON = 200
 
 
 def quoted(value: object) -> str:
-    """The value as Python writes it, its beginning where that is long."""
+    """Return the value as Python writes it, shortened to its beginning if that is long."""
     try:
         text = " ".join(repr(value).split())
     except Exception as error:
@@ -19,7 +19,7 @@ def quoted(value: object) -> str:
 
 
 def reason(error: BaseException) -> str:
-    """What an exception says: its type, and its text if it has one."""
+    """Return the type of an exception, and its text if it has one."""
     try:
         text = " ".join(_COLOUR.sub("", str(error)).split())
     except Exception as second:
@@ -28,7 +28,7 @@ def reason(error: BaseException) -> str:
 
 
 def place(error: BaseException) -> str:
-    """Where a stranger's code raised: the last of its lines, as ``" (points.py, line 12)"``; nothing if it has none."""
+    """Return the line of third-party code that raised, as ``" (points.py, line 12)"``; empty if there is none."""
     import traceback
     from pathlib import Path
 

@@ -19,7 +19,7 @@ def compare(
             "--sampler",
             "-s",
             metavar="NAME[:OPTION=VALUE,...][+RANDOMIZER]",
-            help="A sampler; give one for each that is compared.",
+            help="A sampler; repeat the option for each sampler.",
             autocompletion=complete_sampler,
         ),
     ],
@@ -28,12 +28,12 @@ def compare(
         typer.Option(
             "--scene",
             metavar="NAME[:OPTION=VALUE,...]",
-            help="What is integrated; one or several.",
+            help="A scene to integrate; may be repeated.",
             autocompletion=complete_scene,
         ),
     ],
     spp: Annotated[
-        str, typer.Option("--spp", "-n", metavar="LIST", help="Samples of a pixel, such as 4,16,64 or 2^2..2^12.")
+        str, typer.Option("--spp", "-n", metavar="LIST", help="Samples per pixel, such as 4,16,64 or 2^2..2^12.")
     ],
     trials: Annotated[str, typer.Option("--trials", metavar="R", help="Independent realisations.")] = "32",
     size: Annotated[
@@ -43,7 +43,8 @@ def compare(
     output: Annotated[str, typer.Option("--output", "-o", metavar="DIR", help="A folder for all files.")] = "",
     resume: Annotated[bool, typer.Option("--resume", help="Continue the study in that folder.")] = False,
     threads: Annotated[
-        str, typer.Option("--threads", "-t", metavar="T", help="Threads for errors; by default one a processor.")
+        str,
+        typer.Option("--threads", "-t", metavar="T", help="Threads for errors; by default one for each processor."),
     ] = "",
     processes: Annotated[
         str, typer.Option("--processes", metavar="P", help="Processes for errors, in place of threads.")
@@ -57,7 +58,7 @@ def compare(
         typer.Option(
             "--budget",
             metavar="SECONDS",
-            help="For measuring run times; by default a tenth of what errors take, at least 1.",
+            help="Time for measuring run times; by default a tenth of the time for errors, at least 1 s.",
         ),
     ] = "",
     cost: Annotated[
@@ -74,8 +75,8 @@ def compare(
 ) -> int:
     """Compare samplers: error against samples and against run time.
 
-    Every sampler on every scene at every count, with intervals over independent trials, run times, fitted slopes and
-    what they mean. With --output also a report, plots, tables and images.
+    Every sampler runs on every scene at every count. The results are errors with intervals over independent trials, run
+    times, fitted slopes, and what they mean in sentences. With --output also a report, plots, tables and images.
 
     Example: samplekit compare -s random -s jittered --scene disk --spp 2^4..2^10 --trials 1000 --size 1
     """
@@ -114,24 +115,22 @@ def compare(
             results = run_study(samplers, scenes, counts, progress=progress, **options)
         except InterruptedStudy as interrupt:
             typer.echo("samplekit: interrupted: this is what was done", err=True)
-            _report(interrupt.results, output, json)
+            _print_results(interrupt.results, output, json)
             return INTERRUPTED
-    _report(results, output, json)
-    return _invalid(results, json)
+    _print_results(results, output, json)
+    return _report_invalid(results, json)
 
 
-def _report(results: Results, output: str, as_json: bool) -> None:
+def _print_results(results: Results, output: str, as_json: bool) -> None:
     from samplekit._cli.comparison import left_out_lines, lines
     from samplekit.commands import fact_lines, plugin_facts
 
     for line in left_out_lines(results):
         typer.echo(f"samplekit: {line}", err=True)
     if as_json:
-        import json
+        from json import dumps
 
-        from samplekit._study.results import to_json
-
-        typer.echo(json.dumps(json.loads(to_json(results)) | plugin_facts(results), allow_nan=False))
+        typer.echo(dumps(results.as_json() | plugin_facts(results), allow_nan=False))
         return
     for line in [*lines(results), *fact_lines(plugin_facts(results))]:
         typer.echo(line)
@@ -139,8 +138,8 @@ def _report(results: Results, output: str, as_json: bool) -> None:
         typer.echo(f"wrote {output}")
 
 
-def _invalid(results: Results, as_json: bool) -> int:
-    """1, with a line that says why, if samples were not finite."""
+def _report_invalid(results: Results, as_json: bool) -> int:
+    """Return exit status 1 with a line that says why if pixels were not finite, and 0 otherwise."""
     rows = [row for row in results.rows if row.invalid_pixels]
     if not rows:
         return 0

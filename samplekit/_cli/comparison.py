@@ -1,4 +1,4 @@
-"""The results of ``samplekit compare`` as text: a table for each scene, its slopes, and the answers in words."""
+"""Write the results of a study as text: a table for each scene, its slopes, and the answers in words."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 
 def lines(results: Results) -> list[str]:
-    """All lines."""
+    """Return all lines of text that ``samplekit compare`` prints."""
     size = "the unit square" if results.size == (1, 1) else f"{results.size[0]}x{results.size[1]}"
     written = [f"{size}, {results.trials} trials, seed {results.seed}, 95 % intervals"]
     for scene in results.scenes:
@@ -24,7 +24,7 @@ def lines(results: Results) -> list[str]:
 
 
 def left_out_lines(results: Results) -> list[str]:
-    """What there is no row for, a line for each reason."""
+    """Return a line for each reason why there is no row for a requested scene, sampler or count."""
     counts: dict[tuple[str, str, str], list[int]] = {}
     for item in results.left_out:
         counts.setdefault((item.scene, item.sampler, item.reason), []).extend([item.count] if item.count else [])

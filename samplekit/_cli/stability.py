@@ -1,4 +1,4 @@
-"""``samplekit stability``: whether estimates are right where scenes are stiff, and where not, why."""
+"""``samplekit stability``: whether estimates of stiff scenes are right, and why they are not."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ def stability(
         typer.Option(
             "--scene",
             metavar="NAME[:OPTION=VALUE,...]",
-            help="A scene; may be repeated. A name alone: all the extremes that it declares. By default all scenes.",
+            help="A scene; may be repeated. A name alone: all extremes that it declares. By default all scenes.",
             autocompletion=complete_scene,
         ),
     ] = None,
     counts: Annotated[
-        str, typer.Option("--count", "-n", metavar="LIST", help="Samples of an estimate, such as 16,256 or 2^4..2^16.")
+        str, typer.Option("--count", "-n", metavar="LIST", help="Samples per estimate, such as 16,256 or 2^4..2^16.")
     ] = "2^4,2^8,2^12,2^16",
     realizations: Annotated[
         str, typer.Option("--realizations", metavar="R", help="Independent estimates of each cell.")
@@ -42,10 +42,10 @@ def stability(
     ] = "",
     json: JsonOption = False,
 ) -> int:
-    """Sweep scenes from mild to stiff: exit status 3 if an estimate is wrong and nothing says why.
+    """Sweep scenes from mild to stiff: exit status 3 if an estimate is wrong without an explanation.
 
-    Each cell compares estimates with the exact mean, in units of their own standard error and against a run in
-    extended precision from the same points.
+    Each cell compares estimates with the exact mean, in units of their own standard error, and with the same estimates
+    in extended precision.
 
     Example: samplekit stability --scene gaussian --sampler sobol+owen
     """

@@ -1,4 +1,4 @@
-"""What the page says first: for each scene the sentences about it, and the best sampler for each budget of time."""
+"""What the page says first: the sentences about each scene, and the best sampler for each budget of time."""
 
 from __future__ import annotations
 
@@ -16,12 +16,20 @@ if TYPE_CHECKING:
     from samplekit._study.results import Choice, Results
 
 _OPEN_END = 4.0
-"""The last budget has no end: it is drawn up to this multiple of its start, or of all that comes before."""
+"""The last range has no end. Its bar ends at this multiple of its start, or takes a fifth of the strip."""
 
 
 @dataclass(frozen=True)
 class Budget:
-    """A range of times in which one sampler is best: what is said of it, and its place in a strip, in percent."""
+    """A range of times in which one sampler is best.
+
+    Attributes
+    ----------
+    words
+        The text about it.
+    start, width
+        Its place in the strip of all budgets, in percent.
+    """
 
     sampler: str
     words: str
@@ -31,7 +39,15 @@ class Budget:
 
 @dataclass(frozen=True)
 class Answer:
-    """A scene: the sentences on the whole, those about single samplers, and the best choices."""
+    """The answers about a scene.
+
+    Attributes
+    ----------
+    lead, details
+        Sentences about the scene, and about single samplers on it.
+    budgets
+        The best sampler for each range of times.
+    """
 
     scene: str
     lead: list[str]
@@ -40,7 +56,7 @@ class Answer:
 
 
 def answers(results: Results) -> list[Answer]:
-    """Return the answers scene by scene."""
+    """Return the answers about each scene."""
     found = statements(results)
     return [
         Answer(
@@ -54,7 +70,7 @@ def answers(results: Results) -> list[Answer]:
 
 
 def budgets(front: Sequence[Choice]) -> list[Budget]:
-    """One range for each run of choices of the same sampler, on a logarithmic strip of times."""
+    """Return a range for each run of choices of the same sampler, on a logarithmic strip of times."""
     runs = [list(run) for _, run in itertools.groupby(front, key=lambda choice: choice.sampler)]
     if not runs or front[0].seconds <= 0.0:
         return []

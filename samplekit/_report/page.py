@@ -1,4 +1,4 @@
-"""The page: template, style, scripts and data in one text."""
+"""``report.html``: template, style, scripts and data of a study in one page that needs no network."""
 
 from __future__ import annotations
 
@@ -14,7 +14,9 @@ from markupsafe import Markup
 from samplekit._report import wording
 from samplekit._report.answers import answers
 from samplekit._report.pixels import STEPS, packed
+from samplekit._study.folder import REPORT
 from samplekit._study.results import LEVEL
+from samplekit.files import text_writer, write_group
 from samplekit.files._images import diverging
 from samplekit.files._images.png import RESERVED
 
@@ -27,7 +29,7 @@ if TYPE_CHECKING:
 _ASSETS = files("samplekit._report") / "assets"
 _LIBRARY = "vendor/d3.min.js"
 STYLES = ("base", "controls", "answers", "tables", "charts", "images", "made", "phone", "paper")
-"""The page's style sheets, in the order in which they apply."""
+"""Style sheets of the page, in the order in which they apply."""
 
 SCRIPTS = (
     "state",
@@ -48,21 +50,45 @@ SCRIPTS = (
     "table",
     "start",
 )
-"""The page's own scripts: one after the other they are one script."""
+"""The page's own scripts, in the order in which they are joined into one."""
 
 
-def page(results: Results, folder: Path) -> str:
-    """The page as text.
-
-    Every text of the study is escaped, and scripts run only if they are the page's own: their hashes are in its policy,
-    which allows no connection either.
+def write_report(results: Results, folder: Path) -> Path:
+    """Write the page of a study beside its other files.
 
     Parameters
     ----------
     results
-        What was found.
+        The study.
     folder
-        Where the paths in ``results`` begin.
+        Where the page goes, and where the paths of images in ``results`` begin.
+
+    Returns
+    -------
+    The path of the page.
+
+    Raises
+    ------
+    UsageError, SamplekitError
+        An image is missing, damaged or of another size, or the page cannot be written. An old page is then still there.
+    """
+    path = folder / REPORT
+    write_group([(path, text_writer([page(results, folder)]))])
+    return path
+
+
+def page(results: Results, folder: Path) -> str:
+    """Return the page as text.
+
+    Every text of the study is escaped. The content security policy of the page lists the hashes of its own scripts: no
+    other script runs, and no connection is allowed.
+
+    Parameters
+    ----------
+    results
+        The study.
+    folder
+        Where the paths of images in ``results`` begin.
 
     Raises
     ------
@@ -109,12 +135,12 @@ def page(results: Results, folder: Path) -> str:
 
 
 def asset(name: str) -> str:
-    """A file that the page is made of."""
+    """Return the text of a file in ``assets``."""
     return _ASSETS.joinpath(*name.split("/")).read_text(encoding="utf-8")
 
 
 def policy(styles: Sequence[str], scripts: Sequence[str]) -> str:
-    """What a browser may do with the page: run and apply the texts that are part of it, and nothing else."""
+    """Return the content security policy: a browser may use the page's own styles and scripts, and nothing else."""
 
     def hashes(texts: Sequence[str]) -> str:
         digests = (hashlib.sha256(text.encode()).digest() for text in texts)
@@ -131,7 +157,7 @@ def policy(styles: Sequence[str], scripts: Sequence[str]) -> str:
 
 
 def references(results: Results) -> dict[str, str]:
-    """For each scene what its errors are measured against, and how far that may be off."""
+    """Return for each scene the kind of its reference, and how far the reference may be off."""
     found: dict[str, Any] = {}
     for row in results.rows:
         bound = "" if row.reference_error == 0.0 else f", off by at most {wording.number(row.reference_error, 2)}"

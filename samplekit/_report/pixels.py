@@ -1,9 +1,9 @@
-"""The images of a study, small enough to lie in the page.
+"""Pack the images of a study so that they fit into the page.
 
-An error is stored in whole steps, the step a power of two of at most 1/64 of the image's own root mean square: every
-pixel is right to 1/128 of that. The reference is stored once for each scene, as it is in the
-EXR files. Where all pixels of all images would be too much for one page, each scene keeps the window with the largest
-errors; nothing is made coarser.
+Errors are rounded to whole steps. The step is a power of two, at most 1/64 of the root mean square of the image's
+errors, so every pixel is right to 1/128 of that. The reference of a scene is stored once, in float32 as in the EXR
+files. If all pixels of all images would make the page too large, each scene keeps the window with the largest errors;
+no image becomes coarser.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from samplekit._errors import SamplekitError
-from samplekit.files._images.exr import read_parts
+from samplekit.files import read_parts
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -28,24 +28,39 @@ if TYPE_CHECKING:
     from samplekit._study.results import Results, Row
 
 STEPS = 64
-"""A step is at most this part of the root mean square of the error."""
+"""A step is at most the root mean square of the error divided by this number."""
 
 BUDGET = 18_000_000
-"""Characters that all images of a page may take together."""
+"""Most characters that all images of a page take together."""
 
 _INVALID = 0xFFFFFF
 
 
 @dataclass(frozen=True)
 class Packed:
-    """The images of a page: what its scripts read, and the packed pixels by the names that stand there."""
+    """The images of a page.
+
+    Attributes
+    ----------
+    scenes
+        What the scripts of the page read about each scene with images.
+    blobs
+        The packed pixels by the names that occur in ``scenes``.
+    """
 
     scenes: list[dict[str, Any]]
     blobs: dict[str, str]
 
 
 def packed(results: Results, folder: Path, budget: int = BUDGET) -> Packed:
-    """Pack the first trials' images, of every scene that has some.
+    """Pack the images of the first trials, for every scene that has images.
+
+    Parameters
+    ----------
+    results, folder
+        The study, and where the paths of its images begin.
+    budget
+        Most characters that all images take together.
 
     Raises
     ------
@@ -94,7 +109,11 @@ def _images(
     weight: NDArray[np.float64],
     blobs: dict[str, str],
 ) -> tuple[list[dict[str, Any]], str]:
-    """Pack the images of one scene into ``blobs``, add their squared errors, each image alike, to ``weight``."""
+    """Pack the images of one scene into ``blobs``.
+
+    Add their squared errors to ``weight`` float64[h, w], scaled so that all images weigh the same. Return what the
+    scripts read about the images, and the name of the packed reference.
+    """
     left, top, width, height = window
     cut = np.s_[top : top + height, left : left + width]
     items: list[dict[str, Any]] = []
@@ -113,6 +132,7 @@ def _images(
 
 
 def _parts(row: Row, folder: Path, size: tuple[int, int]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Read the reference and the error of a row from its EXR file."""
     assert row.pictures is not None
     path = folder / row.pictures.exr
     parts = read_parts(path).parts
@@ -123,7 +143,7 @@ def _parts(row: Row, folder: Path, size: tuple[int, int]) -> tuple[NDArray[np.fl
 
 
 def _heaviest(weight: NDArray[np.float64], size: tuple[int, int]) -> tuple[int, int]:
-    """Left and top of the window of a size in which the weights' sum is largest."""
+    """Return left and top of the window of this size that has the largest sum of weights."""
     width, height = size
     sums = np.zeros((weight.shape[0] + 1, weight.shape[1] + 1))
     sums[1:, 1:] = weight.cumsum(0).cumsum(1)
@@ -133,15 +153,19 @@ def _heaviest(weight: NDArray[np.float64], size: tuple[int, int]) -> tuple[int, 
 
 
 def pack_reference(reference: NDArray[np.float64]) -> str:
-    """float32, the four bytes of all pixels in planes, the lowest first."""
+    """Pack pixels as float32 in four planes of bytes, the lowest bytes first."""
     return _deflated(np.ascontiguousarray(reference, "<f4").view(np.uint8).reshape(-1, 4).T)
 
 
 def pack_error(error: NDArray[np.float64]) -> tuple[str, float]:
-    """Whole steps 0, -1, 1, -2, ... as 24 bits in three planes, the lowest first; and the step, a power of two.
+    """Pack an error as whole steps 0, -1, 1, -2, ... of 24 bits in three planes of bytes, the lowest bytes first.
 
-    Pixels that are not finite have the largest code, which is out of reach of the others: an error is at most the root
-    of the number of pixels times the root mean square.
+    Pixels that are not finite get the largest code. No other pixel reaches it: an error is at most the root of the
+    number of pixels times the root mean square.
+
+    Returns
+    -------
+    The packed pixels, and the step, a power of two.
     """
     finite = np.isfinite(error)
     values = np.where(finite, error, 0.0)
@@ -149,9 +173,9 @@ def pack_error(error: NDArray[np.float64]) -> tuple[str, float]:
     if largest == 0.0:
         step = 1.0
     else:
-        # Scaled before they are squared: no error is too small or too large for its square.
+        # Scaled before they are squared, since squares of very small or very large errors are 0 or infinity.
         rms = largest * math.sqrt(float(np.mean(np.square(values[finite] / largest))))
-        step = math.ldexp(1.0, max(math.floor(math.log2(rms / STEPS)), -149))  # the least of float32, as in the EXR
+        step = math.ldexp(1.0, max(math.floor(math.log2(rms / STEPS)), -149))  # float32 has no smaller one
     steps = np.rint(values / step).astype(np.int64)
     codes = np.where(steps < 0, -2 * steps - 1, 2 * steps)
     codes[~finite] = _INVALID
@@ -159,4 +183,5 @@ def pack_error(error: NDArray[np.float64]) -> tuple[str, float]:
 
 
 def _deflated(planes: NDArray[np.uint8]) -> str:
+    """Compress bytes and write them as text."""
     return base64.b64encode(zlib.compress(np.ascontiguousarray(planes).tobytes(), 6)).decode("ascii")

@@ -1,9 +1,11 @@
-"""Numbers as people read them: the filters of the page's template."""
+"""Write numbers for readers: the filters of the page's template."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 from urllib.parse import quote
+
+from samplekit._study.sentences import in_unit
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -11,11 +13,10 @@ if TYPE_CHECKING:
 MINUS = "−"
 NOTHING = "–"
 _SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-_UNITS = ((1.0, "s"), (1e-3, "ms"), (1e-6, "µs"), (1e-9, "ns"))
 
 
 def number(value: float | None, digits: int = 3) -> str:
-    """A number to some digits, with a power of ten where it is far from 1; a dash for None."""
+    """Return a number with ``digits`` significant digits, with a power of ten if far from 1; a dash for None."""
     if value is None:
         return NOTHING
     if value == 0.0:
@@ -30,37 +31,37 @@ def number(value: float | None, digits: int = 3) -> str:
 
 
 def seconds(value: float | None, digits: int = 3) -> str:
-    """A time in the largest unit that makes it 1 or more."""
+    """Return a time in the largest unit in which it is at least 1; a dash for None."""
     if value is None:
         return NOTHING
     if value <= 0.0:
         return "0 s" if value == 0.0 else MINUS + seconds(-value, digits)
-    size, name = next((unit for unit in _UNITS if value >= 0.9995 * unit[0]), _UNITS[-1])
-    return f"{number(value / size, digits)} {name}"
+    value, unit = in_unit(value)
+    return f"{number(value, digits)} {unit}"
 
 
 def exponent(value: float) -> str:
-    """A measured exponent, to three decimals."""
+    """Return a measured exponent with three decimals."""
     return f"{value:.3f}".replace("-", MINUS)
 
 
 def short(value: float) -> str:
-    """An exponent of the theory: as it is."""
+    """Return an exponent of the theory, which has few digits."""
     return f"{value:.4g}".replace("-", MINUS)
 
 
 def grouped(value: int) -> str:
-    """A whole number in groups of three digits."""
+    """Return a whole number in groups of three digits."""
     return f"{value:,}".replace(",", "\u202f")
 
 
 def counted(value: int, noun: str) -> str:
-    """How many of what."""
+    """Return a number and its noun, in the plural unless the number is 1."""
     return f"{grouped(value)} {noun}" + ("" if value == 1 else "s")
 
 
 def plain(value: float | None) -> str:
-    """The number for the scripts: all of its digits, nothing for None."""
+    """Return a number with all of its digits, for the scripts; empty for None."""
     return "" if value is None else repr(value)
 
 
@@ -74,4 +75,4 @@ FILTERS: dict[str, Callable[..., str]] = {
     "plain": plain,
     "address": quote,
 }
-"""What the template may write after ``|``."""
+"""The filters of the template, by the names that it writes after ``|``."""

@@ -1,4 +1,4 @@
-"""What is to be thought of a cell: right, or why not."""
+"""Classify a measured cell as right, or name the reason why it is not."""
 
 from __future__ import annotations
 
@@ -7,75 +7,71 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
 if TYPE_CHECKING:
-    from samplekit._stability.cell import Measured
+    from samplekit._stability.measurement import Measurement
 
 Kind = Literal[
     "right", "no hits", "few hits", "infinite variance", "precision lost", "not random", "invalid", "refused", "wrong"
 ]
 
-STANDARD_ERRORS = 4.0
-ENOUGH_HITS = 100.0
+_STANDARD_ERRORS = 4.0
+_ENOUGH_HITS = 100.0
 _VISIBLE = 64.0 * 2.0**-53
-"""Rounding errors below this much of the values' own deviation are nobody's loss."""
+"""Rounding errors below this share of the values' own deviation do not count as lost precision."""
 
 MEANINGS: dict[Kind, str] = {
-    "right": f"within {STANDARD_ERRORS:g} standard errors and rounding",
+    "right": f"within {_STANDARD_ERRORS:g} standard errors and rounding",
     "no hits": "right, but no sample hit: all are the same, the variance is 0 and nothing has converged",
-    "few hits": f"beyond {STANDARD_ERRORS:g} standard errors, from fewer than {ENOUGH_HITS:g} samples that hit",
+    "few hits": f"beyond {_STANDARD_ERRORS:g} standard errors, from fewer than {_ENOUGH_HITS:g} samples that hit",
     "infinite variance": "a standard error means nothing",
     "precision lost": "rounding is larger than the error of sampling",
     "not random": "one set: no standard error",
     "invalid": "values that are not finite",
     "refused": "the sampler makes no such sets",
-    "wrong": f"beyond {STANDARD_ERRORS:g} standard errors twice, with independent seeds",
+    "wrong": f"beyond {_STANDARD_ERRORS:g} standard errors twice, with independent seeds",
 }
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """A kind, and the reason in words and numbers; empty where it is right."""
+    """The kind of a cell, and the reason in words and numbers; the reason is empty if the cell is right."""
 
     kind: Kind
     reason: str = ""
 
 
-def judge(cell: Measured, *, randomized: bool, finite_variance: bool) -> Verdict:
-    """Judge one measurement; ``wrong`` is to be confirmed by another one.
+def judge(measured: Measurement, *, randomized: bool, finite_variance: bool) -> Verdict:
+    """Judge one measurement; a second one with another seed must confirm ``wrong``.
 
     Parameters
     ----------
-    cell
-        What was measured.
+    measured
+        The measurement.
     randomized
-        Whether the sampler's realisations differ.
+        Whether the realisations of the sampler differ.
     finite_variance
-        Whether the scene's values have a variance.
+        Whether the values of the scene have a finite variance.
     """
-    within = abs(cell.error) <= cell.allowance
-    if cell.invalid:
-        return Verdict("invalid", f"{cell.invalid} of {cell.samples} values are not finite")
-    if not math.isfinite(cell.estimate):
+    errors = f"{measured.standard_errors:.3g} standard errors"
+    within = abs(measured.error) <= measured.allowance
+    if measured.invalid:
+        return Verdict("invalid", f"{measured.invalid} of {measured.samples} values are not finite")
+    if not math.isfinite(measured.estimate):
         return Verdict("invalid", "the sum overflows")
-    if cell.hits == 0.0 and not within:
+    if measured.hits == 0.0 and not within:
         return Verdict(
             "no hits",
-            f"all {cell.samples} samples gave {cell.estimate:.3g}: the variance is 0, and the error {cell.error:.3g}",
+            f"all {measured.samples} samples gave {measured.estimate:.3g}:"
+            f" the variance is 0, and the error {measured.error:.3g}",
         )
     if not finite_variance:
-        return Verdict("infinite variance", f"{_apart(cell)} standard errors, which mean nothing")
-    if cell.arithmetic_error > _VISIBLE * cell.deviation > 0.0 and not cell.arithmetic_error <= cell.sampling_error:
-        return Verdict(
-            "precision lost",
-            f"rounding {cell.arithmetic_error:.2g}, error of sampling {cell.sampling_error:.2g}",
-        )
-    if within or abs(cell.standard_errors) <= STANDARD_ERRORS:
+        return Verdict("infinite variance", f"{errors}, which mean nothing")
+    rounding, sampling = measured.arithmetic_error, measured.sampling_error
+    if rounding > _VISIBLE * measured.deviation > 0.0 and not rounding <= sampling:
+        return Verdict("precision lost", f"rounding {rounding:.2g}, error of sampling {sampling:.2g}")
+    if within or abs(measured.standard_errors) <= _STANDARD_ERRORS:
         return Verdict("right")
-    if not randomized or math.isnan(cell.spread):
-        return Verdict("not random", f"the error of the one set is {cell.error:.2g}")
-    if cell.hits < ENOUGH_HITS:
-        return Verdict("few hits", f"{_apart(cell)} standard errors, and {cell.hits:.0f} samples that hit")
-    return Verdict("wrong", f"{_apart(cell)} standard errors, {cell.hits:.0f} samples that hit")
-
-
-def _apart(cell: Measured) -> str:
-    return f"{cell.standard_errors:.3g}"
+    if not randomized or math.isnan(measured.spread):
+        return Verdict("not random", f"the error of the one set is {measured.error:.2g}")
+    if measured.hits < _ENOUGH_HITS:
+        return Verdict("few hits", f"{errors}, and {measured.hits:.0f} samples that hit")
+    return Verdict("wrong", f"{errors}, {measured.hits:.0f} samples that hit")

@@ -1,4 +1,4 @@
-"""The mean square of an error after the Gaussian blur of ``blurred_mse``, as fast as one drawing of the image."""
+"""The mean square of an error after the Gaussian blur of ``blurred_mse``, compiled because every trial needs it."""
 
 from __future__ import annotations
 
@@ -6,21 +6,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit._metrics import BLUR_RADIUS, BLUR_SIGMA, blur
-from samplekit.kernels._compile import helper, kernel
+from samplekit._metrics import BLUR_RADIUS, BLUR_WEIGHTS, blur
+from samplekit.kernels import helper, kernel
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
 
-_WEIGHTS = np.exp(-0.5 * np.square(np.arange(BLUR_RADIUS + 1) / BLUR_SIGMA))
-_WEIGHTS /= _WEIGHTS[0] + 2.0 * _WEIGHTS[1:].sum()
-
 
 @helper
-def _tapped(values: Array, at: int, step: int, weights: Array) -> float:
-    """The weighted sum of a value and of the eight on either side, ``step`` apart: written out, it is vectorised."""
+def _weighted_sum(values: Array, at: int, step: int, weights: Array) -> float:
+    """Sum a value and its eight neighbours on either side, ``step`` apart. Written out, the loop is vectorised."""
     total: float = (
         weights[0] * values[at]
         + weights[1] * (values[at - step] + values[at + step])
@@ -37,7 +34,7 @@ def _tapped(values: Array, at: int, step: int, weights: Array) -> float:
 
 @helper
 def _reflected(place: int, length: int) -> int:
-    """The pixel that stands at a place beyond the edges: the image mirrored, as often as it takes."""
+    """Return the pixel at a place beyond the edges of an image that is mirrored at them, as often as necessary."""
     place %= 2 * length
     return place if place < length else 2 * length - 1 - place
 
@@ -56,7 +53,7 @@ def _blurred_squares(error: Array, weights: Array, squares: Array) -> None:
             padded[BLUR_RADIUS + x] = error[y, x]
         first = (y + BLUR_RADIUS) * width
         for x in range(width):
-            across[first + x] = _tapped(padded, BLUR_RADIUS + x, 1, weights)
+            across[first + x] = _weighted_sum(padded, BLUR_RADIUS + x, 1, weights)
     for y in range(BLUR_RADIUS):
         above = (_reflected(y - BLUR_RADIUS, height) + BLUR_RADIUS) * width
         below = (_reflected(height + y, height) + BLUR_RADIUS) * width
@@ -67,7 +64,7 @@ def _blurred_squares(error: Array, weights: Array, squares: Array) -> None:
     for y in range(height):
         first = (y + BLUR_RADIUS) * width
         for x in range(width):
-            row[x] = _tapped(across, first + x, width, weights)
+            row[x] = _weighted_sum(across, first + x, width, weights)
         total = 0.0
         for x in range(width):
             total += row[x] * row[x]
@@ -75,12 +72,18 @@ def _blurred_squares(error: Array, weights: Array, squares: Array) -> None:
 
 
 def blurred_mean_square(error: Array, valid: NDArray[np.bool_]) -> float:
-    """The mean over the valid pixels, at least one, of the square of the blurred error float64[h, w].
+    """Return the mean square of the blurred error over the valid pixels.
 
-    Pixels that are not valid are 0 in ``error``, and left out of the blur as :func:`samplekit._metrics.metrics` does.
+    Parameters
+    ----------
+    error
+        float64[h, w], 0 where it is not valid.
+    valid
+        bool[h, w], true for at least one pixel. The others are left out of the blur as in
+        :func:`samplekit._metrics.metrics`.
     """
     if not valid.all():
         return float(np.mean(np.square(blur(error, valid)[valid])))
     squares = np.empty(error.shape[0])
-    _blurred_squares(np.ascontiguousarray(error), _WEIGHTS, squares)
+    _blurred_squares(np.ascontiguousarray(error), BLUR_WEIGHTS, squares)
     return float(squares.sum() / error.size)

@@ -1,4 +1,4 @@
-"""Jobs on the workers of a Dask cluster, by the address of its scheduler."""
+"""Carry out jobs on the workers of a Dask cluster, given the address of its scheduler."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ import itertools
 from typing import TYPE_CHECKING, Any
 
 from samplekit._errors import SamplekitError, UsageError
-from samplekit._study.machine import known_versions
-from samplekit._study.subjects import Subjects
+from samplekit._provenance import versions
+from samplekit._study.resources import Resources
 from samplekit._study.trials import carry_out
 
 if TYPE_CHECKING:
@@ -17,15 +17,21 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from samplekit._study.jobs import Job
-    from samplekit._study.processes import Found
+    from samplekit._study.processes import JobResults
 
 _AHEAD = 3
+"""Jobs for each thread that are handed out at a time."""
 _PATIENCE = 20.0
-"""Seconds to find the scheduler, and a first worker."""
+"""Seconds to wait for the scheduler, and for a first worker."""
 
 
 class Cluster:
     """A connection to a scheduler.
+
+    Parameters
+    ----------
+    address
+        Address of the scheduler, such as ``tcp://host:8786``.
 
     Raises
     ------
@@ -49,17 +55,26 @@ class Cluster:
             raise UsageError(f"the Dask scheduler at {address} has no workers: {error}") from None
 
     def close(self) -> None:
-        """Leave the cluster as it was."""
+        """Close the connection and leave the cluster as it was."""
         self._client.close()
 
     @property
     def threads(self) -> int:
-        """Threads of all workers together."""
+        """Number of threads of all workers together."""
         workers = self._client.scheduler_info(n_workers=-1)["workers"].values()
         return sum(int(worker["nthreads"]) for worker in workers) or 1
 
-    def run(self, jobs: Sequence[Job], tick: Callable[[int], None]) -> Found:
-        """Do jobs; those of a worker that dies are done by others.
+    def run(self, jobs: Sequence[Job], tick: Callable[[int], None]) -> JobResults:
+        """Carry out jobs, and yield each with its sums in the order in which they end.
+
+        If a worker dies, other workers repeat its jobs.
+
+        Parameters
+        ----------
+        jobs
+            What is done.
+        tick
+            Called with the number of samples of each job that ends.
 
         Raises
         ------
@@ -68,7 +83,7 @@ class Cluster:
         """
         from distributed import KilledWorker, as_completed
 
-        expected = known_versions()
+        expected = versions()
         waiting = iter(jobs)
 
         def submit(job: Job) -> Any:
@@ -84,7 +99,7 @@ class Cluster:
                 except KilledWorker:
                     raise SamplekitError(
                         f"workers keep dying of {job.sampler} with {job.counts[-1]} samples on {job.scene}:"
-                        " out of memory? With --output, --resume goes on from what was done"
+                        " out of memory? With --output, --resume continues from what was done"
                     ) from None
                 except OSError as error:
                     raise SamplekitError(f"the Dask cluster was lost: {' '.join(str(error).split())}") from None
@@ -97,14 +112,14 @@ class Cluster:
             self._client.cancel(list(running))
 
 
-_subjects = Subjects()
-"""Those of a worker process, for all of its threads."""
+_resources = Resources()
+"""The resources of this worker process, for all of its threads."""
 
 
 def _carry_out_there(job: Job, expected: dict[str, str]) -> NDArray[np.float64]:
     # Checked with each job, since workers may join at any time.
-    found = known_versions()
+    found = versions()
     for name, version in expected.items():
         if found.get(name) != version:
             raise SamplekitError(f"a Dask worker has {name} {found.get(name)}, this is {version}: results would differ")
-    return carry_out(job, _subjects)
+    return carry_out(job, _resources)

@@ -1,4 +1,4 @@
-"""From the sums of a cell's trials to its errors and their intervals."""
+"""The errors of a combination and their intervals, from the sums of its trials."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Errors:
-    """Errors of a cell; see :class:`samplekit._study.results.Row`."""
+    """The errors of a combination; the fields are those of :class:`samplekit._study.results.Row`."""
 
     trials: int
     mse: Interval
@@ -33,16 +33,24 @@ class Errors:
 
 
 def errors_of(sums: Array, *, one_pixel: bool) -> Errors:
-    """The errors, from the batches float64[B, COLUMNS] in the order of their trials."""
+    """Return the errors of a combination.
+
+    Parameters
+    ----------
+    sums
+        float64[B, COLUMNS]: its batches in the order of their trials.
+    one_pixel
+        Whether the trials are estimates of the unit square; otherwise they are images.
+    """
     trials = sums[:, TRIALS]
     mse = positive_interval(sums[:, SQUARE], trials, one_pixel=one_pixel)
-    pairs = _pairs(sums)
+    pairs = _whole_pairs(sums)
     return Errors(
         int(trials.sum()),
         mse,
-        _root(mse),
+        _square_root(mse),
         mean_interval(sums[:, ERROR], trials),
-        _variance_of_one(sums) if one_pixel else _variance_of_pairs(pairs),
+        _variance_of_pixel(sums) if one_pixel else _variance_from_pairs(pairs),
         mean_interval(pairs[:, PRODUCT], pairs[:, PAIRS]),
         None if one_pixel else positive_interval(sums[:, BLURRED], trials, one_pixel=False),
         int(sums[:, INVALID].sum()),
@@ -50,7 +58,7 @@ def errors_of(sums: Array, *, one_pixel: bool) -> Errors:
 
 
 def influence(sums: Array) -> Array:
-    """How much each batch float64[B] adds to the relative deviation of the mean square, 0 on the whole."""
+    """Return what each batch float64[B] adds to the relative deviation of the mean square; the total is 0."""
     squares, trials = sums[:, SQUARE], sums[:, TRIALS]
     mean = float(np.sum(squares)) / trials.sum()
     deviations: Array = (squares - trials * mean) / (mean * trials.sum())
@@ -58,10 +66,18 @@ def influence(sums: Array) -> Array:
 
 
 def ratio_of(sums: Array, baseline: Array) -> Interval | None:
-    """The mean square over that of another sampler, whose trials have the same seeds.
+    """Return the mean square relative to that of another sampler whose trials have the same seeds.
 
-    Where trials go together their ratio is known better than if they did not, and the interval says so; else trials
-    count as independent.
+    The interval is narrower where the trials of both samplers are correlated; otherwise they count as independent.
+
+    Parameters
+    ----------
+    sums, baseline
+        float64[B, COLUMNS]: the batches of the sampler and of the other one.
+
+    Returns
+    -------
+    None if one of the mean squares is 0 or not finite.
     """
     mean, other = (float(np.nan_to_num(s[:, SQUARE].sum() / max(s[:, TRIALS].sum(), 1.0))) for s in (sums, baseline))
     if not (mean > 0.0 and other > 0.0 and math.isfinite(mean / other)):
@@ -81,34 +97,34 @@ def ratio_of(sums: Array, baseline: Array) -> Interval | None:
     return Interval(mean / other, mean / other * math.exp(-reach), mean / other * math.exp(reach))
 
 
-def _root(interval: Interval) -> Interval:
+def _square_root(interval: Interval) -> Interval:
     values = (interval.estimate, interval.low, interval.high)
     return Interval(*(None if value is None else math.sqrt(value) for value in values))
 
 
-def _variance_of_one(sums: Array) -> Interval:
-    """The variance of the estimates of one pixel, and its interval from those of the squared deviations."""
+def _variance_of_pixel(sums: Array) -> Interval:
+    """Return the variance of the estimates of one pixel, with its interval from their squared deviations."""
     trials = sums[:, TRIALS]
     number = float(trials.sum())
     if number < 2.0:
         return Interval(None)
     mean = float(np.sum(sums[:, ERROR])) / number
-    # Sums of (e - mean)^2 over the batches; what is left of rounding must not be negative.
+    # Sums of (e - mean)^2 over the batches. Rounding must not make them negative.
     squares = np.maximum(sums[:, SQUARE] - 2.0 * mean * sums[:, ERROR] + trials * mean * mean, 0.0)
     return positive_interval(squares * (number / (number - 1.0)), trials, one_pixel=True)
 
 
-def _variance_of_pairs(pairs: Array) -> Interval:
-    """Half the mean squared difference of the images of a pair."""
+def _variance_from_pairs(pairs: Array) -> Interval:
+    """Return the variance of images: half the mean squared difference of the two images of a pair."""
     number = pairs[:, PAIRS]
     halves = np.where(number > 0, 0.5 * pairs[:, SQUARE] - pairs[:, PRODUCT], 0.0)
     return positive_interval(np.maximum(halves, 0.0), number, one_pixel=False)
 
 
-def _pairs(sums: Array) -> Array:
-    """The sums over batches of whole pairs of trials."""
+def _whole_pairs(sums: Array) -> Array:
+    """Return the sums over batches that consist of whole pairs of trials."""
     if not len(sums) or sums[:, TRIALS].max() > 1.0:
-        # Batches are even: all of theirs are pairs. The last of an odd number, and those with a gap, are left out.
+        # Batches are even, so all of their trials are in pairs. Those of an odd number or with a gap are left out.
         whole = sums.copy()
         whole[whole[:, TRIALS] != 2.0 * whole[:, PAIRS]] = 0.0
         return whole

@@ -1,9 +1,13 @@
-"""The law mse = constant x count^slope: a weighted regression in logarithms, and how far its slope is known.
+"""The law mse = constant x count^slope, fitted to the rows of a sampler by weighted regression in logarithms.
 
-A row's logarithm is off by what its trials scatter, and by what the law itself is off there, since no sampler follows
-one exactly. The second is estimated from the scatter about the line (Paule and Mandel 1982, "Consensus values and
-weighting factors", J. Res. NBS 87(5)); weights are those of both together. Rows of a progressive sampler share their
-trials: their covariance is that of the trials.
+The logarithm of a row deviates from the line for two reasons: its trials scatter, and no sampler follows a power law
+exactly. The second deviation is estimated from the scatter about the line (Paule and Mandel 1982, "Consensus values and
+weighting factors", J. Res. NBS 87(5)); weights use the variances of both together. The rows of a progressive sampler
+share their trials, and the covariance of the rows is that of these trials.
+
+Theory has exponents for some samplers in two dimensions, in the worst case (the indicator of a disk) and in the best
+case (a Gaussian): Pilleboue, Singh, Coeurjolly, Kazhdan, Ostromoukhov 2015, "Variance analysis for Monte Carlo
+integration", ACM TOG 34(4).
 """
 
 from __future__ import annotations
@@ -25,9 +29,31 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 
+_CASES = {"disk": "worst", "gaussian": "best"}
+_EXPONENTS: dict[str, dict[str, float]] = {
+    "random": {"worst": -1.0, "best": -1.0},
+    "jittered": {"worst": -1.5, "best": -2.0},
+    "poisson-disk": {"worst": -1.0, "best": -1.0},
+    "ccvt": {"worst": -1.5, "best": -3.0},
+}
+
+
+def theoretical_exponent(scene: str, sampler: str) -> tuple[str | None, float | None]:
+    """Return the case that a scene is, and the exponent of a sampler in it; None where theory has none.
+
+    Parameters
+    ----------
+    scene, sampler
+        Texts as on the command line.
+    """
+    case = _CASES.get(scene.partition(":")[0].rpartition("/")[2])
+    name = sampler.partition("+")[0].partition(":")[0].rpartition("/")[2]
+    return case, _EXPONENTS.get(name, {}).get(case) if case else None
+
+
 @dataclass(frozen=True)
 class Line:
-    """What a fit found: see :class:`samplekit._study.results.Fit`."""
+    """A fitted line; the fields are those of :class:`samplekit._study.results.Fit`."""
 
     slope: Interval
     constant: float
@@ -35,15 +61,19 @@ class Line:
 
 
 def fit_line(counts: Sequence[int], mses: Sequence[float], influences: Sequence[Array | None]) -> Line | None:
-    """The line through the logarithms of rows; None where they are fewer than two.
+    """Fit a line to the logarithms of rows.
 
     Parameters
     ----------
     counts, mses
-        Of the rows; all above 0.
+        The count and the mean squared error of each row; all above 0.
     influences
-        Of each row's batches on its mse, relative, float64[B]; None where it has no variance.
-        Rows of the same number of batches may share trials.
+        For each row the relative influence float64[B] of its batches on its mean squared error, None if it has no
+        variance. Rows with the same number of batches may share trials.
+
+    Returns
+    -------
+    None if there are fewer than two rows.
     """
     rows = len(counts)
     if rows < 2:
@@ -51,9 +81,9 @@ def fit_line(counts: Sequence[int], mses: Sequence[float], influences: Sequence[
     x, y = np.log(np.asarray(counts, np.float64)), np.log(np.asarray(mses, np.float64))
     covariance = _covariance(influences)
     known = np.diag(covariance).copy()
-    scatter = _scatter(x, y, known) if rows > 2 else 0.0
-    weights = _weights(known, scatter)
-    coefficients, intercept = _slope(x, weights)
+    scatter = _find_scatter(x, y, known) if rows > 2 else 0.0
+    weights = _weigh(known, scatter)
+    coefficients, intercept = _line_coefficients(x, weights)
     slope = float(coefficients @ y)
     constant = math.exp(float(intercept @ y))
     by_trials = float(coefficients @ covariance @ coefficients)
@@ -69,7 +99,7 @@ def fit_line(counts: Sequence[int], mses: Sequence[float], influences: Sequence[
 
 
 def _covariance(influences: Sequence[Array | None]) -> Array:
-    """Of the rows' logarithms."""
+    """Return the covariance of the rows' logarithms, from their trials."""
     rows = len(influences)
     covariance = np.zeros((rows, rows))
     for i, mine in enumerate(influences):
@@ -79,34 +109,34 @@ def _covariance(influences: Sequence[Array | None]) -> Array:
     return covariance
 
 
-def _weights(known: Array, scatter: float) -> Array:
+def _weigh(known: Array, scatter: float) -> Array:
     variances = known + scatter
     if variances.max() <= 0.0:
         return np.ones_like(variances)
-    # A row without a variance (a sampler that is not random) weighs no more than the best known of the others.
+    # A row without a variance (its sampler is not random) weighs as much as the best known of the others.
     least = variances[variances > 0.0].min()
     weights: Array = 1.0 / np.maximum(variances, least)
     return weights
 
 
-def _slope(x: Array, weights: Array) -> tuple[Array, Array]:
-    """What slope and intercept are in terms of y: linear, with these coefficients."""
+def _line_coefficients(x: Array, weights: Array) -> tuple[Array, Array]:
+    """Return the coefficients float64[n] with which slope and intercept depend on y."""
     share = weights / weights.sum()
     middle = float(share @ x)
     slope = share * (x - middle) / float(share @ (x - middle) ** 2)
     return slope, share - middle * slope
 
 
-def _scatter(x: Array, y: Array, known: Array) -> float:
-    """The variance about the line beyond ``known`` that makes the weighted residuals what they should be."""
+def _find_scatter(x: Array, y: Array, known: Array) -> float:
+    """Return the variance about the line, beyond ``known``, that gives the weighted residuals their expected size."""
 
     def excess(scatter: float) -> float:
-        weights = _weights(known, scatter)
-        slope, intercept = _slope(x, weights)
+        weights = _weigh(known, scatter)
+        slope, intercept = _line_coefficients(x, weights)
         residuals = y - float(intercept @ y) - float(slope @ y) * x
         return float(weights @ residuals**2) - (x.size - 2)
 
-    slope, intercept = _slope(x, np.ones_like(x))
+    slope, intercept = _line_coefficients(x, np.ones_like(x))
     largest = float(np.sum((y - float(intercept @ y) - float(slope @ y) * x) ** 2))
     if largest <= 1e-24 or (known.max() > 0.0 and excess(0.0) <= 0.0):
         return 0.0

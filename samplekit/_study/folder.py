@@ -1,4 +1,4 @@
-"""The folder of a study: what may be in it, and whether a study may go there."""
+"""The folder of a study: the names of its files, and the check whether a study may write there."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from samplekit._errors import UsageError
 from samplekit._study.store import NAME
-from samplekit.files._writing import check_targets, shown
+from samplekit.files import check_targets, shown
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -17,12 +17,13 @@ _TEMPORARY = ".samplekit-"
 
 
 def check_folder(folder: Path, *, resume: bool) -> None:
-    """Make the folder of a study if need be, and check that it is its own.
+    """Create the folder of a study if it does not exist, and check that it holds nothing else.
 
     Raises
     ------
     UsageError
-        It cannot be made or written to, somebody else's files are in it, or a study is that is not to be resumed.
+        The folder cannot be created or written to, it holds files that no study made, or it holds a study that is not
+        to be resumed.
     """
     try:
         folder.mkdir(exist_ok=True)
@@ -37,7 +38,7 @@ def check_folder(folder: Path, *, resume: bool) -> None:
         raise UsageError(f"{shown(folder)} holds {others[0]!r}{more}, which no study made: choose an empty folder")
     if names and not resume:
         raise UsageError(
-            f"{shown(folder)} holds a study: --resume goes on with it; for another one choose an empty folder"
+            f"{shown(folder)} holds a study: --resume continues it; for another study, choose an empty folder"
         )
     if names and NAME not in names:
         raise UsageError(f"{shown(folder)} holds results without their {NAME}: choose an empty folder")

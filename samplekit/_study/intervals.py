@@ -1,17 +1,17 @@
 """Confidence intervals over independent trials, for means of numbers that may be heavily skewed.
 
-The squared error of one estimate is such a number: of an error that is normal its relative variance is 2, of others it
-is more, and now and then one trial in a hundred holds most of the mean. An interval by Student's t covers far too
-seldom then. What is taken instead, at 95 %, is the wider at either end of
+The squared error of one estimate is such a number. For a normal error its relative variance is 2, for other errors it
+is larger, and sometimes one trial in a hundred contributes most of the mean. An interval by Student's t then covers the
+truth far too rarely. The interval used here, at 95 %, takes at either end the wider of
 
-- Hall's transformation of t, which undoes the skewness that is seen (Hall 1992, "On the removal of skewness by
+- Hall's transformation of t, which corrects for the observed skewness (Hall 1992, "On the removal of skewness by
   transformation", J. R. Stat. Soc. B 54(1)); and
-- the interval of a multiple of chi-square with as many degrees of freedom as its variance says (Satterthwaite 1946),
-  that variance raised for small samples, which tend to miss the rare large values; for many pixels, whose mean square
-  is nearly normal, Student's t of the logarithm.
+- the interval of a multiple of chi-square with the degrees of freedom that its variance implies (Satterthwaite 1946);
+  the variance is raised for small samples, which tend to miss the rare large values. For many pixels, whose mean square
+  is nearly normal, Student's t of the logarithm takes its place.
 
-Both together cover in 90 to 99 % of studies from 10 trials on where errors are near normal, and from about 60 where one
-trial in ten is four times as far off as the rest.
+Together they cover the truth in 90 to 99 % of studies from 10 trials on where errors are nearly normal, and from about
+60 trials on where one trial in ten is four times as far off as the others.
 """
 
 from __future__ import annotations
@@ -32,51 +32,51 @@ if TYPE_CHECKING:
 
 _TAIL = (1.0 - LEVEL) / 2.0
 _NORMAL = 2.0
-"""Relative variance of the square of a normal number with mean 0."""
+"""Relative variance of the square of a normal variable with mean 0."""
 _FEW = 5
-"""Numbers below which their own skewness says nothing."""
+"""With fewer batches their own skewness says nothing."""
 _WORTH = 10.0
-"""Trials that this expectation counts for, where fewer are seen to vary less."""
+"""Number of trials as which this expectation counts where the observed variance is smaller."""
 
 
 @lru_cache(1024)
 def student(dof: float) -> float:
-    """The quantile of Student's t that 95 % lie within."""
+    """Return the bound within which 95 % of Student's t with ``dof`` degrees of freedom lies."""
     return float(stdtrit(max(dof, 1e-3), 1.0 - _TAIL))
 
 
 def mean_interval(sums: Array, sizes: Array) -> Interval:
-    """The mean of numbers near normal, by Student's t.
+    """Return the mean of nearly normal numbers, with its interval by Student's t.
 
     Parameters
     ----------
     sums, sizes
-        float64[B]: the sums over batches of independent numbers, and how many each has.
+        float64[B]: the sums over batches of independent numbers, and the number of numbers in each.
     """
     mean, error = _mean_and_error(sums, sizes)
     if mean is None or error is None:
         return Interval(mean)
-    half = student(_batches(sizes) - 1) * error
+    half = student(_count_batches(sizes) - 1) * error
     return Interval(mean, mean - half, mean + half)
 
 
 def positive_interval(sums: Array, sizes: Array, *, one_pixel: bool) -> Interval:
-    """The mean of numbers that are not negative and may be skewed: squared errors; see the module.
+    """Return the mean of squared errors, with an interval that allows for their skewness: see the module.
 
     Parameters
     ----------
     sums, sizes
-        As for :func:`mean_interval`.
+        float64[B]: the sums over batches of independent numbers, and the number of numbers in each.
     one_pixel
-        The numbers are squares of single errors; else means of many.
+        Whether the numbers are squares of single errors; otherwise they are means over many pixels.
     """
     mean, error = _mean_and_error(sums, sizes)
     if mean is None or error is None:
         return Interval(mean)
     if mean <= 0.0:
-        # All 0: no trial says how far the next may be off.
+        # All trials are exact, and none tells how large the error of the next may be.
         return Interval(mean)
-    batches = _batches(sizes)
+    batches = _count_batches(sizes)
     relative = batches * (error / mean) ** 2
     if one_pixel:
         low, high = _by_chi_square(relative, batches, float(sizes.sum()) / batches)
@@ -90,7 +90,7 @@ def positive_interval(sums: Array, sizes: Array, *, one_pixel: bool) -> Interval
 
 
 def _by_chi_square(relative: float, batches: int, per_batch: float) -> tuple[float, float]:
-    """The factors of the interval, for a mean of ``batches`` numbers with this relative variance."""
+    """Return low / mean and high / mean for a mean of ``batches`` numbers with this relative variance."""
     expected = (relative * batches + _WORTH * _NORMAL / per_batch) / (batches + _WORTH)
     missed = (batches + 4) / (batches - 2) if batches >= _FEW else 1.0
     raised = max(relative * missed, expected)
@@ -99,7 +99,8 @@ def _by_chi_square(relative: float, batches: int, per_batch: float) -> tuple[flo
 
 
 def _by_hall(sums: Array, sizes: Array, mean: float, error: float) -> tuple[float, float]:
-    batches = _batches(sizes)
+    """Return the ends of the interval by Hall's transformation."""
+    batches = _count_batches(sizes)
     deviations = (sums - sizes * mean)[sizes > 0]
     spread = math.sqrt(float(np.mean(deviations**2)))
     skewness = float(np.mean((deviations / spread) ** 3)) / math.sqrt(batches) if spread > 0.0 else 0.0
@@ -113,22 +114,23 @@ def _by_hall(sums: Array, sizes: Array, mean: float, error: float) -> tuple[floa
     return mean - error * inverse(reach), mean - error * inverse(-reach)
 
 
-def _batches(sizes: Array) -> int:
+def _count_batches(sizes: Array) -> int:
+    """Return the number of batches that are not empty."""
     return int(np.count_nonzero(sizes))
 
 
 def _mean_and_error(sums: Array, sizes: Array) -> tuple[float | None, float | None]:
-    """The mean and its standard error; None of nothing, and where a single batch tells no variance."""
+    """Return the mean and its standard error; None for the mean of nothing, and for the error of a single batch."""
     total = float(sizes.sum())
     if total == 0.0:
         return None, None
     mean = float(np.sum(sums)) / total
     if not math.isfinite(mean):
         return None, None
-    batches = _batches(sizes)
+    batches = _count_batches(sizes)
     if batches < 2:
         return mean, None
-    # Batches may differ in size: the error of a ratio of sums (Cochran 1977, "Sampling Techniques", 6.3).
+    # Batches may differ in size: this is the error of a ratio of sums (Cochran 1977, "Sampling Techniques", 6.3).
     deviations = sums - sizes * mean
     error = math.sqrt(batches / (batches - 1) * float(np.sum(deviations * deviations))) / total
     return mean, error if math.isfinite(error) else None

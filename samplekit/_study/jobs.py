@@ -1,8 +1,8 @@
-"""The jobs of a study: plain data, independent of each other, and the sums that they give.
+"""The jobs of a study: plain data, independent of each other.
 
-A job makes trials ``first`` to ``last`` of a scene and sampler, at one count or, where one draw has them all, at
-several. What a trial gives depends on nothing else, so that results do not depend on how trials are shared out. Trials
-are summed in batches, at most 1024 of them, which no job divides: batches are put side by side, and nothing is rounded.
+A job makes trials ``first`` to ``last`` of a scene and sampler, at one count or at several counts that share a draw.
+Each trial depends on nothing else, so results do not depend on how the trials are divided into jobs. Trials are summed
+in at most 1024 batches, and no job divides a batch: merging jobs only puts batches side by side and rounds nothing.
 """
 
 from __future__ import annotations
@@ -13,21 +13,37 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
-    from samplekit._study.cells import Cell
+    from samplekit._study.combinations import Combination
     from samplekit._study.request import Request
 
 MOST_BATCHES = 1024
 _SECONDS = 0.4
-"""Of a job: what an interrupt throws away at most."""
+"""Longest job, in seconds: at most this much work is lost on an interrupt."""
 _MOST_TRIALS = 2**18
-"""Of a job: some 20 MB."""
+"""Most trials of a job: their sums take about 20 MB."""
 _ARRAYS = 6
-"""Of the size of an image, for each count that a job has at once."""
+"""Arrays of the size of an image that a job holds at once for each of its counts."""
 
 
 @dataclass(frozen=True)
 class Job:
-    """Trials ``first`` to ``last`` of a scene and sampler, all of ``counts`` from one draw, in batches of ``batch``."""
+    """Trials ``first`` to ``last`` (excluded) of a scene and sampler.
+
+    Attributes
+    ----------
+    scene, sampler
+        Texts as on the command line.
+    counts
+        Numbers of samples per pixel, in rising order; one draw serves all of them.
+    first, last
+        The range of trials.
+    batch
+        Number of trials that are summed together.
+    size
+        Width and height of the image in pixels.
+    seed
+        Seed of the study.
+    """
 
     scene: str
     sampler: str
@@ -40,59 +56,59 @@ class Job:
 
     @property
     def memory(self) -> int:
-        """Bytes that the job takes, roughly."""
+        """Approximate memory of the job in bytes."""
         return _ARRAYS * 8 * len(self.counts) * self.size[0] * self.size[1]
 
     @property
     def samples(self) -> int:
-        """Samples that are drawn, constant pixels counted as well."""
+        """Number of samples of all pixels, constant pixels included."""
         return self.counts[-1] * self.size[0] * self.size[1] * (self.last - self.first)
 
 
 def batch_of(trials: int) -> int:
-    """Trials in a batch: 1, or an even number, since trials are compared in pairs."""
+    """Return the number of trials in a batch: 1, or an even number, since trials are compared in pairs."""
     return 1 if trials <= MOST_BATCHES else 2 * -(-trials // (2 * MOST_BATCHES))
 
 
-def groups(cells: Iterable[Cell]) -> Iterator[list[Cell]]:
-    """Cells whose sets are drawn together: the prefixes of a progressive sampler, and every other one by itself."""
-    shared: dict[tuple[str, str], list[Cell]] = {}
-    for cell in cells:
-        if cell.shared_draw:
-            shared.setdefault(cell.pair, []).append(cell)
+def _shared_draws(combinations: Iterable[Combination]) -> Iterator[list[Combination]]:
+    """Group the combinations whose sets are prefixes of one draw; all others stand alone."""
+    shared: dict[tuple[str, str], list[Combination]] = {}
+    for combination in combinations:
+        if combination.shared_draw:
+            shared.setdefault(combination.pair, []).append(combination)
         else:
-            yield [cell]
+            yield [combination]
     yield from shared.values()
 
 
 def split(
     request: Request,
-    cells: Sequence[Cell],
-    missing: Callable[[Cell], Sequence[tuple[int, int]]],
-    seconds: Mapping[Cell, float],
+    combinations: Sequence[Combination],
+    missing: Callable[[Combination], Sequence[tuple[int, int]]],
+    seconds: Mapping[Combination, float],
     workers: int,
 ) -> list[Job]:
-    """The jobs that are left to do, so ordered that all cells grow together.
+    """Divide the missing trials into jobs, ordered so that all combinations progress together.
 
     Parameters
     ----------
-    request, cells
+    request, combinations
         The study.
     missing
-        Ranges of trials that a cell has not; their ends are those of batches.
+        Returns the ranges of trials that a combination still needs; they begin and end where batches do.
     seconds
-        Time that a trial takes, roughly; a job is to take less than a second.
+        Approximate seconds of a trial.
     workers
-        That share the work.
+        Number of workers that share the jobs.
     """
     jobs: list[tuple[float, Job]] = []
-    for group in groups(cells):
+    for group in _shared_draws(combinations):
         largest = group[-1]
         batch = batch_of(largest.trials)
         unit = max(batch, 2)
-        counts = tuple(cell.count for cell in group)
-        # Of one draw all have the same trials, unless somebody took rows out of the file.
-        for start, stop in _union(each for cell in group for each in missing(cell)):
+        counts = tuple(combination.count for combination in group)
+        # The counts of one draw have the same trials, unless somebody removed rows from the store.
+        for start, stop in _union(each for combination in group for each in missing(combination)):
             length = min(_SECONDS / max(seconds.get(largest, 0.0), 1e-9), (stop - start) / workers, _MOST_TRIALS)
             length = max(1, round(length / unit)) * unit
             for first in range(start, stop, length):
@@ -102,7 +118,7 @@ def split(
 
 
 def _union(ranges: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
-    """The ranges, those that overlap or touch as one."""
+    """Join the ranges that overlap or touch."""
     joined: list[tuple[int, int]] = []
     for first, last in sorted(ranges):
         if joined and first <= joined[-1][1]:
@@ -113,7 +129,7 @@ def _union(ranges: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
 
 
 def gaps(ranges: Sequence[tuple[int, int]], trials: int) -> list[tuple[int, int]]:
-    """What of 0 to ``trials`` lies between the ranges."""
+    """Return the parts of 0 to ``trials`` that lie between the ranges."""
     found, end = [], 0
     for first, last in [*sorted(ranges), (trials, trials)]:
         if first > end:

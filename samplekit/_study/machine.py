@@ -1,24 +1,15 @@
-"""The machine that times are taken on, and the versions that numbers are made with: what must be equal to compare."""
+"""The machine on which times are measured."""
 
 from __future__ import annotations
 
 import platform
-from functools import cache
 from pathlib import Path
 
 import psutil
 
-from samplekit._provenance import versions
-
-
-@cache
-def known_versions() -> dict[str, str]:
-    """The versions of samplekit, Python and libraries, looked up once."""
-    return versions()
-
 
 def describe_machine() -> dict[str, str]:
-    """System, processor, number of processors and memory."""
+    """Return the system, the processor, the number of processors and the memory, in words."""
     return {
         "system": f"{platform.system()} {platform.release()}",
         "processor": _processor(),
@@ -27,13 +18,13 @@ def describe_machine() -> dict[str, str]:
     }
 
 
-def kind(machine: dict[str, str]) -> str:
-    """The kind of machine, as one word: times of other kinds are not those of this one."""
+def kind_of(machine: dict[str, str]) -> str:
+    """Return the kind of a machine as one text. Times of different kinds cannot be compared."""
     return f"{machine['processor']} | {machine['processors']} | {platform.machine()}"
 
 
 def _processor() -> str:
-    """The processor's own name, where the system tells it."""
+    """Return the processor's own name, if the system knows it."""
     information = Path("/proc/cpuinfo")
     if information.exists():
         for line in information.read_text(encoding="utf-8", errors="replace").splitlines():

@@ -1,4 +1,4 @@
-"""Dataclasses from the plain data that ``dataclasses.asdict`` makes of them, read back from JSON."""
+"""Make dataclasses again from the plain data that ``dataclasses.asdict`` made of them and JSON kept."""
 
 from __future__ import annotations
 
@@ -10,12 +10,19 @@ T = TypeVar("T")
 
 
 def from_plain(kind: type[T], plain: Any) -> T:
-    """An instance of a dataclass whose fields are dataclasses, lists, dicts, tuples, numbers, text or None.
+    """Make an instance of a dataclass.
+
+    Parameters
+    ----------
+    kind
+        The dataclass; its fields are dataclasses, lists, dicts, tuples, numbers, text or None.
+    plain
+        A dict of the values of its fields.
 
     Raises
     ------
     KeyError, TypeError, ValueError
-        A field without a default is missing, one is unknown, or of another type.
+        A field without a default is missing, a field is unknown, or a value has another type.
     """
     hints = get_type_hints(kind)
     items = {item.name: item for item in fields(kind)}  # type: ignore[arg-type]
@@ -27,8 +34,9 @@ def from_plain(kind: type[T], plain: Any) -> T:
 
 
 def _value(kind: Any, plain: Any) -> Any:
+    """Return the value of a field that is annotated as ``kind``."""
     origin, arguments = get_origin(kind), get_args(kind)
-    if origin in (types.UnionType,):
+    if origin is types.UnionType:
         if plain is None and type(None) in arguments:
             return None
         (kind,) = (argument for argument in arguments if argument is not type(None))
@@ -44,5 +52,5 @@ def _value(kind: Any, plain: Any) -> Any:
     if kind is float and isinstance(plain, int) and not isinstance(plain, bool):
         return float(plain)
     if not isinstance(plain, kind) or (kind is not bool and isinstance(plain, bool)):
-        raise TypeError(f"{plain!r} is no {kind.__name__}")
+        raise TypeError(f"{plain!r} is not of type {kind.__name__}")
     return plain

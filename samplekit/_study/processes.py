@@ -1,4 +1,4 @@
-"""Jobs in several processes of this machine; results come in the order in which the jobs end."""
+"""Carry out jobs in several processes of this machine."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from concurrent.futures.process import BrokenProcessPool
 from typing import TYPE_CHECKING
 
 from samplekit._errors import SamplekitError
-from samplekit._study.subjects import Subjects
+from samplekit._study.resources import Resources
 from samplekit._study.trials import carry_out
 from samplekit._threads import as_completed
 
@@ -23,16 +23,23 @@ if TYPE_CHECKING:
 
     from samplekit._study.jobs import Job
 
-    Found = Generator[tuple[Job, NDArray[np.float64]], None, None]
+    JobResults = Generator[tuple[Job, NDArray[np.float64]], None, None]
 
 
-def in_processes(jobs: Sequence[Job], processes: int, tick: Callable[[int], None]) -> Found:
-    """Do jobs in other processes.
+def in_processes(jobs: Sequence[Job], processes: int, tick: Callable[[int], None]) -> JobResults:
+    """Carry out jobs in other processes, and yield each with its sums in the order in which they end.
+
+    Parameters
+    ----------
+    jobs, processes
+        What is done, and the number of processes.
+    tick
+        Called with the number of samples of each job that ends.
 
     Raises
     ------
     SamplekitError
-        One of them was ended from outside.
+        A process was ended from outside.
     """
     # A fork of a process that has written images hangs.
     pool = ProcessPoolExecutor(processes, multiprocessing.get_context("spawn"), _begin_worker)
@@ -42,7 +49,7 @@ def in_processes(jobs: Sequence[Job], processes: int, tick: Callable[[int], None
             yield job, sums
     except BrokenProcessPool:
         raise SamplekitError(
-            "a worker process was ended from outside (out of memory?): with --output, --resume goes on from there"
+            "a worker process was ended from outside (out of memory?): with --output, --resume continues from there"
         ) from None
     finally:
         children = _children(pool)
@@ -57,18 +64,18 @@ def _children(pool: Executor) -> list[multiprocessing.process.BaseProcess]:
     return list((getattr(pool, "_processes", None) or {}).values())
 
 
-_subjects = Subjects()
-"""Those of a worker process."""
+_resources = Resources()
+"""The resources of this worker process."""
 
 
 def _begin_worker() -> None:
-    # The terminal interrupts all processes at once; the one that began them decides.
+    # The terminal interrupts all processes at once; the process that started them decides what happens.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
 
 
 def _end_with_parent() -> None:
-    # A worker waits for jobs for ever when the process that hands them out is killed.
+    # A worker would wait for jobs for ever if the process that hands them out is killed.
     parent = multiprocessing.parent_process()
     if parent is not None:
         parent.join()
@@ -76,4 +83,4 @@ def _end_with_parent() -> None:
 
 
 def _carry_out_here(job: Job) -> NDArray[np.float64]:
-    return carry_out(job, _subjects)
+    return carry_out(job, _resources)

@@ -1,6 +1,6 @@
-"""What a study found, as plain data: what ``samplekit.compare`` returns and ``results.json`` holds.
+"""The results of a study as plain data: what ``samplekit.compare`` returns and ``results.json`` holds.
 
-Seconds are those of one trial: one estimate of the unit square, or one image. Every interval is one of 95 %.
+Seconds are those of one trial: of one estimate of the unit square, or of one image. All intervals are 95 % intervals.
 """
 
 from __future__ import annotations
@@ -10,8 +10,6 @@ from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
 from samplekit._errors import UsageError
-from samplekit._study.answers import Choice, Crossing, Fit, Flip, LeftOut, ToTarget
-from samplekit._study.measured import LEVEL, Clock, Interval, Pictures, Row, Spread, Times
 from samplekit._study.plain_data import from_plain
 
 if TYPE_CHECKING:
@@ -20,26 +18,290 @@ if TYPE_CHECKING:
     from samplekit.plots import StudyDisplay
 
 SCHEMA = "samplekit.study/1"
+LEVEL = 0.95
+"""Confidence level of all intervals."""
 
-__all__ = [
-    "LEVEL",
-    "SCHEMA",
-    "Choice",
-    "Clock",
-    "Crossing",
-    "Fit",
-    "Flip",
-    "Interval",
-    "LeftOut",
-    "Pictures",
-    "Results",
-    "Row",
-    "Spread",
-    "Times",
-    "ToTarget",
-    "from_json",
-    "to_json",
-]
+
+@dataclass(frozen=True)
+class Interval:
+    """An estimate with its 95 % confidence interval over trials.
+
+    Attributes
+    ----------
+    estimate
+        None if nothing was measured, or if the value is not finite.
+    low, high
+        Ends of the interval; None if there is none: a single trial, or a sampler that is not random.
+    """
+
+    estimate: float | None
+    low: float | None = None
+    high: float | None = None
+
+
+@dataclass(frozen=True)
+class Spread:
+    """Median and quartiles of repeated measurements."""
+
+    median: float
+    lower: float
+    upper: float
+
+
+@dataclass(frozen=True)
+class Seconds:
+    """Seconds by the processor's clock and by the wall clock."""
+
+    cpu: Spread
+    wall: Spread
+
+
+@dataclass(frozen=True)
+class Times:
+    """Seconds that one trial takes on one thread.
+
+    Attributes
+    ----------
+    points, scene, total
+        Drawing the samples, evaluating them, and both.
+    setup_cpu, setup_wall
+        Seconds spent once, before the first sample: making tables and banks of sets, compiling kernels or loading them.
+    laps
+        Number of repetitions; those of different combinations take turns.
+    """
+
+    points: Seconds
+    scene: Seconds
+    total: Seconds
+    setup_cpu: float
+    setup_wall: float
+    laps: int
+
+
+@dataclass(frozen=True)
+class Pictures:
+    """The image files of a row's first trial; paths are relative to ``results.json``.
+
+    Attributes
+    ----------
+    exr
+        File with the parts image, reference and error in float32.
+    png, error_png
+        The image, and its error in false colour.
+    error_scale
+        The error that has the strongest colour in ``error_png``.
+    """
+
+    exr: str
+    png: str
+    error_png: str
+    error_scale: float
+
+
+@dataclass(frozen=True)
+class Row:
+    """The results for a scene, a sampler and a count.
+
+    Attributes
+    ----------
+    scene, sampler
+        Texts as on the command line.
+    count, asked
+        Number of samples per pixel, and the requested counts that led to it: ``[count]``, or others if the sampler
+        cannot make them and this is the nearest count below.
+    replaced
+        Why ``asked`` holds other counts; empty if it does not.
+    dims, samples
+        Dimensions of a sample; number of samples of one trial, over all pixels that are sampled.
+    trials
+        Number of independent realisations behind the errors. If it is smaller than requested, ``notes`` says why.
+    mse, rmse
+        Mean over trials and pixels of the squared error, and its square root.
+    bias
+        Mean over trials and pixels of the signed error.
+    variance
+        Mean over pixels of the variance between trials.
+    squared_bias
+        mse - variance, estimated without bias: mean over pixels of the square of each pixel's own bias. It may come out
+        below 0 if there is no bias.
+    blurred_mse
+        Mean square of the error after a Gaussian blur of 2 pixels; None for one pixel.
+    efficiency
+        1 / (mse x ``time``).
+    ratio
+        mse relative to that of the first sampler at the same count, None if there is none. Both use the same seeds, and
+        where that makes their errors go together the interval is narrower.
+    reference_error, reference_kind
+        Largest possible error of the reference in any pixel, 0 if it is exact; how it was computed, in words.
+    invalid_pixels
+        Number of pixels of all trials whose error or its square was not finite; they are left out of the errors.
+    times
+        Measured times; None if none were measured.
+    time
+        Seconds of a trial that the answers use: the median processor time of ``times.total``, plus the extra cost per
+        sample. None without ``times``.
+    fitted, left_out
+        Whether the fit uses this row, and why not.
+    notes
+        What a reader should know, each in a sentence: an error of exactly zero, an error below that of the reference,
+        sets from a bank, ...
+    pictures
+        Image files of the first trial; None for one pixel.
+    """
+
+    scene: str
+    sampler: str
+    count: int
+    asked: list[int]
+    replaced: str
+    dims: int
+    samples: int
+    trials: int
+    mse: Interval
+    rmse: Interval
+    bias: Interval
+    variance: Interval
+    squared_bias: Interval
+    blurred_mse: Interval | None
+    efficiency: Interval | None
+    ratio: Interval | None
+    reference_error: float
+    reference_kind: str
+    invalid_pixels: int
+    times: Times | None
+    time: float | None
+    fitted: bool
+    left_out: str
+    notes: list[str]
+    pictures: Pictures | None
+
+
+@dataclass(frozen=True)
+class Fit:
+    """The law mse = constant x count^slope of a sampler on a scene.
+
+    Attributes
+    ----------
+    slope
+        The exponent. Its interval allows for the scatter about the line as well as for that between trials.
+    constant
+        The line's mse at one sample.
+    scatter
+        Relative standard deviation of the rows about the line that the trials do not explain; 0 if they explain it all.
+    first, last
+        Range of the counts, both included.
+    counts, left_out
+        Counts of the rows that were used; counts of the other rows, each with the reason.
+    case, theory
+        ``"worst"`` or ``"best"`` if theory has an exponent for this scene, and the exponent of this sampler.
+    """
+
+    scene: str
+    sampler: str
+    slope: Interval
+    constant: float
+    scatter: float
+    first: int
+    last: int
+    counts: list[int]
+    left_out: dict[int, str]
+    case: str | None
+    theory: float | None
+
+
+@dataclass(frozen=True)
+class ToTarget:
+    """What a sampler needs to reach the target error on a scene.
+
+    Attributes
+    ----------
+    target
+        The mean squared error to reach.
+    count, seconds
+        Number of samples and seconds, interpolated between two rows in their logarithms; None if the sampler does not
+        reach the target within the measured counts.
+    note
+        What a reader should know; may be empty.
+    """
+
+    scene: str
+    sampler: str
+    target: float
+    count: float | None
+    seconds: float | None
+    note: str
+
+
+@dataclass(frozen=True)
+class Choice:
+    """The smallest error on a scene for a range of time budgets.
+
+    Attributes
+    ----------
+    seconds, until
+        The range of budgets for one trial; ``until`` None: without end.
+    """
+
+    scene: str
+    sampler: str
+    count: int
+    mse: float
+    seconds: float
+    until: float | None
+
+
+@dataclass(frozen=True)
+class Flip:
+    """A cost per sample at which two samplers change places in the time that they need to reach the target error.
+
+    Attributes
+    ----------
+    cost
+        Extra cost per sample in nanoseconds.
+    below, above
+        The sampler that needs less time at smaller costs, and the one that needs less at larger costs.
+    leads
+        Whether these two need the least time of all samplers at this cost.
+    """
+
+    scene: str
+    target: float
+    cost: float
+    below: str
+    above: str
+    leads: bool
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """Two samplers of which one has the smaller error at few samples and the other at many.
+
+    Attributes
+    ----------
+    fewer, last
+        The better sampler at few samples, and the last count at which the intervals of both do not overlap.
+    more, first
+        The better sampler at many samples, and the first count at which the intervals do not overlap.
+    count
+        Approximate number of samples at which the curves cross.
+    """
+
+    scene: str
+    fewer: str
+    more: str
+    last: int
+    first: int
+    count: float
+
+
+@dataclass(frozen=True)
+class LeftOut:
+    """A requested scene and sampler, or one of their counts, without a row, and the reason."""
+
+    scene: str
+    sampler: str
+    count: int | None
+    reason: str
 
 
 @dataclass(frozen=True)
@@ -49,29 +311,31 @@ class Results:
     Attributes
     ----------
     command
-        That makes it again.
+        The command that makes the study again.
     versions, machine
-        Of samplekit, Python and libraries; ``system``, ``processor``, ``processors``, ``memory`` of where times were
-        taken.
+        Versions of samplekit, Python and the libraries; ``system``, ``processor``, ``processors`` and ``memory`` of the
+        machine on which times were measured.
     scenes, samplers, counts, trials, size, seed
-        What was asked for.
+        The request.
     workers
-        What computed the errors, which do not depend on it; times are those of one thread of ``machine``.
+        What computed the errors, in words; no error depends on it. Times are those of one thread of ``machine``.
     cost
-        Nanoseconds that were added for each sample.
+        Extra cost per sample, in nanoseconds.
     target
-        The error of ``to_target`` and ``flips`` for each scene: the one that was asked for, or the largest that some
-        sampler is left with at its largest count, so that all get there.
+        For each scene the mean squared error of ``to_target`` and ``flips``: the requested one, or the smallest
+        that all samplers reach.
     complete
-        False: interrupted, and some rows have fewer trials.
+        False if the study was interrupted and some rows have fewer trials.
     rows
-        Scene by scene, sampler by sampler, count rising.
+        Scene by scene, sampler by sampler, counts rising.
+    fits, to_target, front, flips, left_out, crossings
+        The answers, scene by scene.
+    notes
+        What a reader should know about the whole study.
     sentences
-        One for each scene and sampler, and one for each scene on the whole.
+        The answers in words: for each scene, and for each sampler on it.
     plots
         Files relative to ``results.json``.
-    crossings
-        Scene by scene, the lowest count first.
 
     Examples
     --------
@@ -105,6 +369,10 @@ class Results:
     plots: list[str] = field(default_factory=list)
     crossings: list[Crossing] = field(default_factory=list)
 
+    def as_json(self) -> dict[str, Any]:
+        """Return the object that ``samplekit compare --json`` prints; the seed has 64 bits and is a text."""
+        return {"schema": SCHEMA, "level": LEVEL, **asdict(self), "seed": str(self.seed)}
+
     def plot(
         self, scene: str | None = None, *, against: Literal["samples", "time"] = "samples", ax: Axes | None = None
     ) -> StudyDisplay:
@@ -115,7 +383,7 @@ class Results:
         scene
             One of ``scenes``; None: the only one.
         against
-            ``"samples"`` of a pixel, or ``"time"``: the seconds of one trial.
+            ``"samples"``: the number of samples per pixel; ``"time"``: the seconds of one trial.
         ax
             The axes of matplotlib to draw on; None: a new figure.
 
@@ -126,7 +394,7 @@ class Results:
         Raises
         ------
         UsageError
-            A scene that is not in the study, or none where there are several; there is nothing to draw.
+            The scene is not in the study, or none is given and there are several; or there is nothing to draw.
         """
         from samplekit.plots import StudyDisplay
 
@@ -134,19 +402,17 @@ class Results:
 
 
 def to_json(results: Results) -> str:
-    """The results as one JSON object, without NaN and infinity; the seed is text, since it has 64 bits."""
-    plain: dict[str, Any] = {"schema": SCHEMA, "level": LEVEL, **asdict(results)}
-    plain["seed"] = str(results.seed)
-    return json.dumps(plain, allow_nan=False, indent=1)
+    """Return the text of ``results.json``: one JSON object without NaN and infinity."""
+    return json.dumps(results.as_json(), allow_nan=False, indent=1)
 
 
 def from_json(text: str) -> Results:
-    """The results that :func:`to_json` wrote.
+    """Read the results that :func:`to_json` wrote.
 
     Raises
     ------
     UsageError
-        It is no such object, or of another version.
+        The text is not such an object, is damaged, or is of another version.
     """
     try:
         plain = json.loads(text)

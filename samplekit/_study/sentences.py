@@ -1,4 +1,4 @@
-"""The answers in words: a sentence for each scene on the whole, and one for each sampler on it."""
+"""The answers in words: sentences about each scene, and one about each sampler on it."""
 
 from __future__ import annotations
 
@@ -14,15 +14,29 @@ _MOST_SPANS = 2
 _UNITS = ((1.0, "s"), (1e-3, "ms"), (1e-6, "µs"), (1e-9, "ns"))
 
 
+def in_unit(seconds: float) -> tuple[float, str]:
+    """Return a time in the largest unit in which it is at least 1, rounded to three digits, and the unit's name."""
+    size, unit = next((each for each in _UNITS if seconds >= 0.9995 * each[0]), _UNITS[-1])
+    return seconds / size, unit
+
+
 def seconds_in_words(seconds: float) -> str:
-    """A time with three digits and its unit: ``1.25 ms``."""
-    size, unit = next(((size, unit) for size, unit in _UNITS if seconds >= 0.9995 * size), _UNITS[-1])
-    return f"{seconds / size:.3g} {unit}"
+    """Return a time with three digits and its unit, such as ``1.25 ms``."""
+    value, unit = in_unit(seconds)
+    return f"{value:.3g} {unit}"
 
 
 @dataclass(frozen=True)
 class Statement:
-    """A statement about a scene, or about one sampler on it; ``text`` does not name the scene."""
+    """A statement about a scene, or about one sampler on it.
+
+    Attributes
+    ----------
+    scene, sampler
+        What it is about; ``sampler`` is None if it is about the scene.
+    text
+        The rest of the sentence, which does not name them again.
+    """
 
     scene: str
     sampler: str | None
@@ -30,18 +44,18 @@ class Statement:
 
     @property
     def sentence(self) -> str:
-        """The whole sentence."""
+        """The whole sentence, which begins with the scene and the sampler."""
         return f"{self.scene}, {self.sampler}: {self.text}" if self.sampler else f"{self.scene}: {self.text}"
 
 
 def statements(results: Results) -> list[Statement]:
-    """Return statements about each scene that has a target."""
+    """Return the statements about each scene that has a target: about the scene first, then about each sampler."""
     found: list[Statement] = []
     for scene, error in results.target.items():
         own = [need for need in results.to_target if need.scene == scene]
         choices = [choice for choice in results.front if choice.scene == scene]
         flips = [flip for flip in results.flips if flip.scene == scene]
-        found.append(Statement(scene, None, _of_scene(error, own, choices, flips)))
+        found.append(Statement(scene, None, _scene_text(error, own, choices, flips)))
         found += [
             Statement(
                 scene,
@@ -54,12 +68,12 @@ def statements(results: Results) -> list[Statement]:
         ]
         slopes = {fit.sampler: fit for fit in results.fits if fit.scene == scene}
         found += [
-            Statement(scene, need.sampler, _of_sampler(need, own, choices, slopes.get(need.sampler))) for need in own
+            Statement(scene, need.sampler, _sampler_text(need, own, choices, slopes.get(need.sampler))) for need in own
         ]
     return found
 
 
-def _of_scene(target: float, needs: Sequence[ToTarget], choices: Sequence[Choice], flips: Sequence[Flip]) -> str:
+def _scene_text(target: float, needs: Sequence[ToTarget], choices: Sequence[Choice], flips: Sequence[Flip]) -> str:
     reached = [need for need in needs if need.count is not None]
     if not reached:
         return f"no sampler reaches an mse of {target:.3g}."
@@ -80,7 +94,7 @@ def _of_scene(target: float, needs: Sequence[ToTarget], choices: Sequence[Choice
     return text + "."
 
 
-def _of_sampler(need: ToTarget, needs: Sequence[ToTarget], choices: Sequence[Choice], fit: Fit | None) -> str:
+def _sampler_text(need: ToTarget, needs: Sequence[ToTarget], choices: Sequence[Choice], fit: Fit | None) -> str:
     if need.count is None:
         text = need.note
     else:
@@ -96,7 +110,7 @@ def _of_sampler(need: ToTarget, needs: Sequence[ToTarget], choices: Sequence[Cho
         text += f"; its mse falls as N^{fit.slope.estimate:.2f}"
         if fit.theory is not None:
             text += f" (theory: N^{fit.theory:g})"
-    spans = _joined(choices, need.sampler)
+    spans = _join_ranges(choices, need.sampler)
     if len(spans) > _MOST_SPANS:
         text += f"; the best choice for budgets in {len(spans)} ranges from {seconds_in_words(spans[0].seconds)} on"
     elif spans:
@@ -109,8 +123,8 @@ def _of_sampler(need: ToTarget, needs: Sequence[ToTarget], choices: Sequence[Cho
     return text + "."
 
 
-def _joined(choices: Sequence[Choice], sampler: str) -> list[Choice]:
-    """The choices of a sampler, those that follow on each other as one."""
+def _join_ranges(choices: Sequence[Choice], sampler: str) -> list[Choice]:
+    """Return the choices of a sampler; choices whose ranges follow each other are joined into one."""
     joined: list[Choice] = []
     for previous, choice in zip([None, *choices], choices, strict=False):
         if choice.sampler != sampler:

@@ -1,8 +1,8 @@
-"""What a study has found so far, in an SQLite file: a transaction for each job, so that a kill loses no finished one.
+"""The store of a study: an SQLite file with the sums and times so far, a transaction for each job.
 
-The file is held exclusively while a study runs. The lock is the operating system's: it goes with its process, however
-that ends. SQLite does not notice a bit that flips in a number, so every row has a SHA-256 digest of itself: one that
-does not fit ends the study, and no result comes of it.
+A killed study loses no finished job. A running study holds the file exclusively; the operating system releases the lock
+when the process ends, however it ends. SQLite does not notice a flipped bit in a number, so every row carries its own
+SHA-256 digest: a row that does not match its digest ends the study before it becomes a result.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import numpy as np
 
 from samplekit._errors import SamplekitError, UsageError
 from samplekit._study.trials import COLUMNS
-from samplekit.files._writing import shown
+from samplekit.files import shown
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -25,8 +25,9 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
-    from samplekit._study.cells import Cell
+    from samplekit._study.combinations import Combination
     from samplekit._study.jobs import Job
+    from samplekit._study.timing import Lap
 
     Array = NDArray[np.float64]
 
@@ -47,12 +48,29 @@ def _digest(row: Sequence[Any]) -> bytes:
     return hashlib.sha256(repr(tuple(row)).encode()).digest()
 
 
+def _key(combination: Combination) -> dict[str, Any]:
+    return {"scene": combination.scene, "sampler": combination.sampler, "count": combination.count}
+
+
 class Store:
-    """The file ``study.sqlite`` in a folder; None: in memory, and gone when closed."""
+    """The file ``study.sqlite`` of a study.
+
+    Parameters
+    ----------
+    folder
+        Where the file is; None: in memory, and gone when closed.
+
+    Raises
+    ------
+    UsageError
+        Another study is using the file, or it is damaged.
+    SamplekitError
+        The file cannot be written.
+    """
 
     def __init__(self, folder: Path | None) -> None:
         self._path = None if folder is None else folder / NAME
-        with self._faults():
+        with self._one_line_errors():
             self._database = sqlite3.connect(self._path or ":memory:", timeout=0.0, isolation_level=None)
             self._database.execute("PRAGMA locking_mode = EXCLUSIVE")
             self._database.execute("PRAGMA journal_mode = WAL")
@@ -61,26 +79,27 @@ class Store:
             self._database.execute("COMMIT")
 
     def close(self) -> None:
-        """Let go of the file."""
-        # What a full disk refuses to tidy up is tidied up when the file is opened again.
+        """Close the file and release its lock."""
+        # What cannot be tidied up on a full disk is tidied up when the file is opened again.
         with contextlib.suppress(sqlite3.Error):
             self._database.close()
 
     def begin(self, request: dict[str, Any], versions: dict[str, str]) -> None:
-        """Write down what is asked for, or check that it is what is written down.
+        """Write down the request and the versions, or check that the file has the same ones.
 
         Raises
         ------
         UsageError
-            The file is of another version, or of another study.
+            The file has another format, or belongs to another study.
         """
-        with self._faults():
+        request_text = json.dumps(request)
+        with self._one_line_errors():
             tables = {name for (name,) in self._database.execute("SELECT name FROM sqlite_master")}
             if not tables:
                 with self._transaction():
                     for table in _TABLES.split(";"):
                         self._database.execute(table)
-                    self._insert("INSERT INTO study", (FORMAT, json.dumps(request), json.dumps(versions)))
+                    self._insert("INSERT INTO study", (FORMAT, request_text, json.dumps(versions)))
                 return
             found = self._database.execute("SELECT format FROM study").fetchone() if "study" in tables else None
             if found is None or found[0] != FORMAT:
@@ -89,7 +108,7 @@ class Store:
                     f" {FORMAT}: finish it with the samplekit that began it, or choose another folder"
                 )
             ((_, kept_request, kept_versions),) = self._select("study")
-        self._compare(json.loads(kept_request), request, json.loads(kept_versions), versions)
+        self._compare(json.loads(kept_request), json.loads(request_text), json.loads(kept_versions), versions)
 
     def _compare(
         self,
@@ -98,76 +117,70 @@ class Store:
         kept_versions: dict[str, str],
         versions: dict[str, str],
     ) -> None:
-        differing = [name for name in asked if kept.get(name) != asked[name]]
-        if differing:
-            name = differing[0]
+        name = next((name for name in asked if kept.get(name) != asked[name]), None)
+        if name is not None:
             raise UsageError(
                 f"{self._shown} is of another study: {name} {kept.get(name)}, not {asked[name]}:"
                 " ask for the same, or choose another folder"
             )
-        others = [name for name in kept_versions | versions if kept_versions.get(name) != versions.get(name)]
-        if others:
-            name = others[0]
+        all_names = kept_versions | versions
+        name = next((name for name in all_names if kept_versions.get(name) != versions.get(name)), None)
+        if name is not None:
             raise UsageError(
                 f"{self._shown} was begun with {name} {kept_versions.get(name, '(none)')}, this is"
                 f" {versions.get(name, '(none)')}: numbers may differ: install that version, or choose another folder"
             )
 
     def add(self, job: Job, sums: Array) -> None:
-        """Keep what a job gave."""
-        with self._faults(), self._transaction():
+        """Keep the sums float64[counts, batches, COLUMNS] of a job."""
+        with self._one_line_errors(), self._transaction():
             for count, batches in zip(job.counts, sums, strict=True):
                 row = job.scene, job.sampler, count, job.first, job.last, np.ascontiguousarray(batches).tobytes()
                 self._insert("INSERT OR REPLACE INTO sums", row)
 
-    def ranges(self, cell: Cell) -> list[tuple[int, int]]:
-        """The trials that a cell has, first to last of each job."""
-        return [(first, last) for first, last, _ in self._batches(cell)]
+    def ranges(self, combination: Combination) -> list[tuple[int, int]]:
+        """Return the ranges of trials that are done, in rising order: first and last of each job."""
+        return [(row[3], row[4]) for row in self._select("sums", "first", **_key(combination))]
 
-    def sums(self, cell: Cell) -> Array:
-        """The batches float64[B, COLUMNS] of a cell, in the order of their trials."""
-        blobs = [batches for _, _, batches in self._batches(cell)]
-        return np.frombuffer(b"".join(blobs), np.float64).reshape(-1, COLUMNS)
+    def sums(self, combination: Combination) -> Array:
+        """Return the batches float64[B, COLUMNS] of a combination in the order of their trials."""
+        batches = b"".join(row[5] for row in self._select("sums", "first", **_key(combination)))
+        return np.frombuffer(batches, np.float64).reshape(-1, COLUMNS)
 
-    def _batches(self, cell: Cell) -> list[tuple[int, int, bytes]]:
-        where = "sums WHERE scene = ? AND sampler = ? AND count = ? ORDER BY first"
-        with self._faults():
-            return [row[3:] for row in self._select(where, *cell.pair, cell.count)]
+    def add_laps(self, machine: str, laps: Sequence[tuple[Combination, Lap]]) -> None:
+        """Keep the seconds of laps on a kind of machine."""
+        with self._one_line_errors(), self._transaction():
+            for combination, lap in laps:
+                self._insert("INSERT INTO laps", (machine, *_key(combination).values(), *map(float, lap)))
 
-    def add_laps(self, machine: str, laps: Sequence[tuple[Cell, tuple[float, float, float, float]]]) -> None:
-        """Keep times of single trials: of points by processor and wall clock, and of the scene."""
-        with self._faults(), self._transaction():
-            for cell, seconds in laps:
-                self._insert("INSERT INTO laps", (machine, *cell.pair, cell.count, *map(float, seconds)))
-
-    def laps(self, machine: str, cell: Cell) -> Array:
-        """The times float64[L, 4] of a cell on a machine."""
-        where = "laps WHERE machine = ? AND scene = ? AND sampler = ? AND count = ? ORDER BY rowid"
-        with self._faults():
-            rows = self._select(where, machine, *cell.pair, cell.count)
+    def laps(self, machine: str, combination: Combination) -> Array:
+        """Return the laps float64[L, 4] of a combination on a kind of machine."""
+        rows = self._select("laps", machine=machine, **_key(combination))
         return np.array([row[4:] for row in rows], np.float64).reshape(-1, 4)
 
-    def add_setup(self, machine: str, cell: Cell, cpu: float, wall: float) -> None:
-        """Keep the seconds before a cell's first sample; the first that were kept stay."""
-        with self._faults(), self._transaction():
-            self._insert("INSERT OR IGNORE INTO setups", (machine, *cell.pair, cell.count, float(cpu), float(wall)))
+    def add_setup(self, machine: str, combination: Combination, cpu: float, wall: float) -> None:
+        """Keep the seconds before the first sample, unless the store has them from an earlier run."""
+        with self._one_line_errors(), self._transaction():
+            row = (machine, *_key(combination).values(), float(cpu), float(wall))
+            self._insert("INSERT OR IGNORE INTO setups", row)
 
-    def setup(self, machine: str, cell: Cell) -> tuple[float, float]:
-        """These seconds, by processor and wall clock."""
-        where = "setups WHERE machine = ? AND scene = ? AND sampler = ? AND count = ?"
-        with self._faults():
-            rows = self._select(where, machine, *cell.pair, cell.count)
+    def setup(self, machine: str, combination: Combination) -> tuple[float, float]:
+        """Return the seconds before the first sample, by processor and wall clock; 0 if they were not measured."""
+        rows = self._select("setups", machine=machine, **_key(combination))
         return rows[0][4:] if rows else (0.0, 0.0)
 
     def _insert(self, into: str, row: tuple[Any, ...]) -> None:
         places = ", ".join("?" * (len(row) + 1))
         self._database.execute(f"{into} VALUES ({places})", (*row, _digest(row)))
 
-    def _select(self, where: str, *values: Any) -> list[Any]:
-        """Whole rows without their digests, which fit."""
-        rows = self._database.execute(f"SELECT * FROM {where}", values).fetchall()
-        if any(_digest(row[:-1]) != row[-1] for row in rows):
-            raise sqlite3.DatabaseError("it is damaged: numbers in it are not those that were written")
+    def _select(self, table: str, order: str = "rowid", **where: Any) -> list[Any]:
+        """Return the rows with these values, without their digests, after checking the digests."""
+        conditions = " AND ".join(f"{name} = :{name}" for name in where) or "TRUE"
+        with self._one_line_errors():
+            query = f"SELECT * FROM {table} WHERE {conditions} ORDER BY {order}"
+            rows = self._database.execute(query, where).fetchall()
+            if any(_digest(row[:-1]) != row[-1] for row in rows):
+                raise sqlite3.DatabaseError("it is damaged: numbers in it are not those that were written")
         return [row[:-1] for row in rows]
 
     @property
@@ -186,17 +199,19 @@ class Store:
             raise
 
     @contextlib.contextmanager
-    def _faults(self) -> Iterator[None]:
-        """One line for what SQLite cannot do."""
+    def _one_line_errors(self) -> Iterator[None]:
+        """Turn the errors of SQLite into messages of one line."""
         try:
             yield
         except sqlite3.OperationalError as error:
-            if "decode" in str(error) or "no such column" in str(error) or "no such table" in str(error):
+            # Text that is not UTF-8 has no code of SQLite; a missing table or column has the general one.
+            code = getattr(error, "sqlite_errorcode", sqlite3.SQLITE_ERROR) & 0xFF
+            if code == sqlite3.SQLITE_ERROR:
                 raise UsageError(f"cannot read {self._shown}: it is damaged: choose another folder") from None
-            if "locked" in str(error):
+            if code in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_LOCKED):
                 raise UsageError(f"{self._shown} is in use: another study is writing there") from None
             raise SamplekitError(
-                f"cannot write {self._shown}: {error}: what was done is kept, --resume goes on from there"
+                f"cannot write {self._shown}: {error}: what was done is kept, --resume continues from there"
             ) from None
         except sqlite3.DatabaseError as error:
             raise UsageError(f"cannot read {self._shown}: {error}: choose another folder") from None

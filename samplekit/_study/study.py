@@ -1,29 +1,28 @@
-"""A study from its request to its results: setting up, laps, jobs, more laps, answers."""
+"""A study from its request to its results: set-up, laps, jobs, more laps, analysis, answers."""
 
 from __future__ import annotations
 
 import contextlib
 import threading
 import time
-from dataclasses import replace
+from dataclasses import asdict, replace
 from typing import TYPE_CHECKING
 
 from samplekit._errors import UsageError
 from samplekit._memory import check_memory
+from samplekit._provenance import versions
 from samplekit._study import ranking
-from samplekit._study.cells import lay_out
+from samplekit._study.analysis import Analysis
 from samplekit._study.cluster import Cluster
-from samplekit._study.crossings import crossings
+from samplekit._study.combinations import list_combinations
 from samplekit._study.folder import check_folder
 from samplekit._study.jobs import gaps, split
-from samplekit._study.laps import LAP_SECONDS, LOOK_SECONDS, TimingRun, run_laps
-from samplekit._study.machine import describe_machine, kind, known_versions
+from samplekit._study.machine import describe_machine, kind_of
 from samplekit._study.processes import in_processes
 from samplekit._study.results import Results
-from samplekit._study.rows import Analysis
 from samplekit._study.sentences import statements
-from samplekit._study.setup import set_up
 from samplekit._study.store import Store
+from samplekit._study.timing import ESTIMATE_SECONDS, LAP_SECONDS, TimingRun, run_laps, set_up
 from samplekit._study.trials import carry_out
 from samplekit._threads import check_threads, on_threads
 
@@ -31,47 +30,57 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from pathlib import Path
 
-    from samplekit._study.cells import Cell
-    from samplekit._study.options import ExecutionOptions
-    from samplekit._study.request import Request
-    from samplekit._study.subjects import Subjects
+    from samplekit._study.combinations import Combination
+    from samplekit._study.request import ExecutionOptions, Request
+    from samplekit._study.resources import Resources
 
     Progress = Callable[[str, int, int], None]
 
-_SHARE, _LEAST = 0.1, 1.0
-"""Of the time that errors take, for laps, and seconds in any case, unless a budget is given."""
+_BUDGET_SHARE, _SMALLEST_BUDGET = 0.1, 1.0
+"""Default budget for laps: this share of the time that the errors took, and at least so many seconds."""
 
 
 class Study:
-    """A study under way: :meth:`run` goes as far as it is let, :meth:`results` tells what is there.
+    """A study in progress: :meth:`run` does the work, :meth:`results` returns what has been found so far.
+
+    Parameters
+    ----------
+    request, options
+        What is asked for, and how it is carried out.
+    resources
+        The scenes and samplers of the request.
+    folder
+        Where the store is kept; None: in memory.
+    resume
+        Whether the study continues the one in the folder.
 
     Raises
     ------
     UsageError
-        The request or the folder is not right.
+        The request cannot be carried out, or the study may not write to the folder.
     """
 
     def __init__(
         self,
         request: Request,
         options: ExecutionOptions,
-        subjects: Subjects,
+        resources: Resources,
         folder: Path | None = None,
         *,
         resume: bool = False,
     ) -> None:
-        options.check()
         if resume and folder is None:
             raise UsageError("--resume needs --output, the folder of the study")
-        self._request, self._options, self._subjects = request, options, subjects
-        self._cells, self._left_out = lay_out(request, subjects)
-        self._machine, self._versions = describe_machine(), known_versions()
+        self._request, self._options, self._resources = request, options, resources
+        self._combinations, self._left_out = list_combinations(request, resources)
+        self._machine, self._versions = describe_machine(), versions()
+        self._machine_kind = kind_of(self._machine)
         if folder is not None:
             check_folder(folder, resume=resume)
         self._store = Store(folder)
         self._cluster: Cluster | None = None
         try:
-            self._store.begin(request.plain(), self._versions)
+            self._store.begin(asdict(request), self._versions)
             self._cluster = Cluster(options.dask) if options.dask is not None else None
         except BaseException:
             self.close()
@@ -84,13 +93,18 @@ class Study:
         self.close()
 
     def close(self) -> None:
-        """Let go of the folder and of the cluster."""
+        """Close the store and the connection to the cluster."""
         self._store.close()
         if self._cluster is not None:
             self._cluster.close()
 
     def run(self, progress: Progress = lambda _, __, ___: None) -> None:
-        """Do what is left to do. An interrupt leaves all that was finished.
+        """Do what is left to do. After an interrupt the store has everything that was finished.
+
+        Parameters
+        ----------
+        progress
+            Called with what is being done, how much of it is done, and how much there is.
 
         Raises
         ------
@@ -98,45 +112,48 @@ class Study:
             A plugin failed, or the store cannot be written.
         """
         self._set_up(progress)
-        timings = [TimingRun(cell, self._request, self._subjects) for cell in self._cells]
+        timings = [TimingRun(combination, self._request, self._resources) for combination in self._combinations]
         seconds = {}
         for number, timing in enumerate(timings):
-            seconds[timing.cell] = timing.warm_up(LAP_SECONDS if self._options.times else LOOK_SECONDS)
+            seconds[timing.combination] = timing.warm_up(LAP_SECONDS if self._options.times else ESTIMATE_SECONDS)
             progress("warming up", number + 1, len(timings))
         if self._options.times:
-            self._laps(timings, 0.0, progress)
+            self._run_laps(timings, 0.0, progress)
         began = time.perf_counter()
-        self._errors(seconds, progress)
+        self._compute_errors(seconds, progress)
         if self._options.times:
-            share = max(_SHARE * (time.perf_counter() - began), _LEAST)
-            self._laps(timings, share if self._options.budget is None else self._options.budget, progress)
+            budget = self._options.budget
+            if budget is None:
+                budget = max(_BUDGET_SHARE * (time.perf_counter() - began), _SMALLEST_BUDGET)
+            self._run_laps(timings, budget, progress)
 
     def _set_up(self, progress: Progress) -> None:
-        machine = kind(self._machine)
-        for cell in self._cells:
-            cpu, wall = set_up(cell, self._subjects, lambda done, total: progress("preparing point sets", done, total))
+        for each in self._combinations:
+            cpu, wall = set_up(each, self._resources, lambda done, total: progress("preparing point sets", done, total))
             if self._options.times:
-                self._store.add_setup(machine, cell, cpu, wall)
+                self._store.add_setup(self._machine_kind, each, cpu, wall)
 
-    def _laps(self, timings: list[TimingRun], seconds: float, progress: Progress) -> None:
-        machine = kind(self._machine)
+    def _run_laps(self, timings: list[TimingRun], seconds: float, progress: Progress) -> None:
         run_laps(
             timings,
             seconds,
-            lambda cell: self._store.laps(machine, cell)[:, [0, 2]].sum(axis=1),
-            lambda laps: self._store.add_laps(machine, laps),
+            lambda combination: self._store.laps(self._machine_kind, combination)[:, [0, 2]].sum(axis=1),
+            lambda laps: self._store.add_laps(self._machine_kind, laps),
             lambda done, total: progress("measuring run times", done, total),
         )
 
-    def _errors(self, seconds: dict[Cell, float], progress: Progress) -> None:
+    def _compute_errors(self, seconds: dict[Combination, float], progress: Progress) -> None:
+        """Carry out the jobs that are left; ``seconds`` are those of a trial."""
         workers = self._options.processes
         if self._cluster is not None:
             workers = self._cluster.threads
         elif workers == 1:
             workers = check_threads(self._options.threads)
-        jobs = split(
-            self._request, self._cells, lambda cell: gaps(self._store.ranges(cell), cell.trials), seconds, workers
-        )
+
+        def missing(combination: Combination) -> list[tuple[int, int]]:
+            return gaps(self._store.ranges(combination), combination.trials)
+
+        jobs = split(self._request, self._combinations, missing, seconds, workers)
         if self._cluster is None and jobs:
             needed = workers * max(job.memory for job in jobs)
             check_memory(needed, f"images on {workers} threads or processes", ": ask for fewer with --threads")
@@ -154,29 +171,29 @@ class Study:
         elif self._options.processes > 1:
             found = in_processes(jobs, workers, tick)
         else:
-            found = on_threads(lambda job, tick: carry_out(job, self._subjects, tick), jobs, workers, tick)
-        # Closed whatever happens here: it stops the workers.
+            found = on_threads(lambda job, tick: carry_out(job, self._resources, tick), jobs, workers, tick)
+        # Closing stops the workers, whatever happens here.
         with contextlib.closing(found):
             for job, sums in found:
                 self._store.add(job, sums)
 
     def results(self) -> Results:
-        """What is there, also after an interrupt."""
+        """Return the results of everything that is done, also after an interrupt."""
         request, options = self._request, self._options
         analysis = Analysis(
-            request, self._cells, self._store, self._subjects, kind(self._machine), options.cost, options.fitted
+            request,
+            self._combinations,
+            self._store,
+            self._resources,
+            self._machine_kind,
+            options.cost,
+            options.fitted,
         )
         rows = analysis.rows()
-        fits = analysis.fits(rows)
         target = ranking.targets(rows, options.target)
         to_target = ranking.times_to_target(rows, target)
-        front, crossed = ranking.front(rows), crossings(rows)
-        flips = ranking.flips(rows, to_target, options.cost)
-        more = [f"--cost {options.cost:g}"] if options.cost else []
-        more += [f"--target {options.target:g}"] if options.target else []
-        more += [f"--fit {options.fitted[0]}..{options.fitted[1]}"] if options.fitted else []
         results = Results(
-            command=request.command(*more),
+            command=request.command(*options.command_options()),
             versions=self._versions,
             machine=self._machine,
             scenes=list(request.scenes),
@@ -190,17 +207,18 @@ class Study:
             target=target,
             complete=analysis.complete,
             rows=rows,
-            fits=fits,
+            fits=analysis.fits(rows),
             to_target=to_target,
-            front=front,
-            flips=flips,
+            front=ranking.front(rows),
+            flips=ranking.flips(rows, to_target, options.cost),
             left_out=[*self._left_out, *analysis.left_out],
             notes=self._notes(),
-            crossings=crossed,
+            crossings=ranking.crossings(rows),
         )
         return replace(results, sentences=[statement.sentence for statement in statements(results)])
 
     def _workers(self) -> str:
+        """Return in words what computes the errors."""
         if self._cluster is not None:
             return f"Dask at {self._options.dask}"
         if self._options.processes > 1:

@@ -1,7 +1,7 @@
-"""Carrying out a job: its trials drawn, evaluated, compared with the reference, and summed in batches.
+"""Carry out a job: draw its trials, evaluate the scene, compare with the reference, and sum the errors in batches.
 
-A trial of the unit square takes the realisation of a pixel far from those of the others, so that samplers that spread
-error over the pixels of an image cannot tie trials together; a trial of an image takes a seed of its own.
+A trial of the unit square takes the realisation of a pixel far from those of the other trials: samplers that spread
+error over neighbouring pixels of an image cannot correlate the trials. A trial of an image takes its own seed.
 """
 
 from __future__ import annotations
@@ -13,7 +13,8 @@ import numpy as np
 from samplekit._bases.realizations import Realizations, seed_word
 from samplekit._integrate.loop import integrate, unit_square
 from samplekit._study.blurred import blurred_mean_square
-from samplekit.kernels._compile import kernel
+from samplekit._study.request import UNIT_SQUARE
+from samplekit.kernels import kernel
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -21,30 +22,41 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from samplekit._study.jobs import Job
-    from samplekit._study.subjects import Subjects
+    from samplekit._study.resources import Resources
 
     Array = NDArray[np.float64]
     Tick = Callable[[int], None]
 
 TRIALS, ERROR, SQUARE, PAIRS, PRODUCT, BLURRED, INVALID = range(7)
-"""Columns of what a job gives: number of trials; sums over them of the error, of its square (for an image: means over
-its pixels), over pairs of neighbouring trials (their number; the product of their errors), of the square of the blurred
-error; number of pixels that are not finite."""
+"""Columns of the sums of a batch.
+
+``TRIALS``: number of trials. ``ERROR``, ``SQUARE``, ``BLURRED``: sums over the trials of the error, of its square, and
+of the square of the blurred error; for an image, of their means over its pixels. ``PAIRS``, ``PRODUCT``: number of
+pairs of neighbouring trials, and the sum of the products of their errors. ``INVALID``: number of pixels that are not
+finite.
+"""
 COLUMNS = 7
 _STRIDE = 4099
-"""Pixels between trials: a prime, so that no tile or period of a sampler gives two the same place within it."""
+"""Pixels between trials: a prime, so that no two trials have the same place in a tile or a period of a sampler."""
 _ROW = 2**20
 _STEP = 0xD1342543DE82EF95
 _PIXELS_AT_ONCE = 2**16
 
 
 def seed_of(seed: int, trial: int) -> int:
-    """The seed of an image: that of the study for the first, hashed for the others."""
+    """Return the seed of an image: the seed of the study for trial 0, a hash of it for all others."""
     return int(seed_word((seed + trial * _STEP) % 2**64)) if trial else seed
 
 
-def carry_out(job: Job, subjects: Subjects, tick: Tick = lambda _: None) -> Array:
-    """Do a job.
+def carry_out(job: Job, resources: Resources, tick: Tick = lambda _: None) -> Array:
+    """Carry out a job.
+
+    Parameters
+    ----------
+    job, resources
+        The job, and the objects that it names.
+    tick
+        Called now and then with the number of samples done since the last call.
 
     Returns
     -------
@@ -55,24 +67,29 @@ def carry_out(job: Job, subjects: Subjects, tick: Tick = lambda _: None) -> Arra
     SamplekitError
         A plugin failed.
     """
-    subjects.prepared(job.sampler, job.counts[-1], subjects.scene(job.scene).dims)
+    resources.prepare(job.sampler, job.counts[-1], resources.scene(job.scene).dims)
     with np.errstate(all="ignore"):
-        return _of_square(job, subjects, tick) if job.size == (1, 1) else _of_images(job, subjects, tick)
+        sum_trials = _sum_squares if job.size == UNIT_SQUARE else _sum_images
+        return sum_trials(job, resources, tick)
 
 
-def _of_square(job: Job, subjects: Subjects, tick: Tick) -> Array:
-    scene = subjects.scene(job.scene)
+def _sum_squares(job: Job, resources: Resources, tick: Tick) -> Array:
+    """Sum trials of the unit square: float64[counts, batches, COLUMNS]."""
+    scene, sampler = resources.scene(job.scene), resources.sampler(job.sampler)
     trial = np.arange(job.first, job.last, dtype=np.int64)
     row = np.zeros_like(trial) if job.last <= _ROW else trial // _ROW
     realizations = Realizations.of_pixels((trial - row * _ROW) * _STRIDE, row * _STRIDE, job.seed, scene.blocks)
-    means = _means(job, subjects, realizations, unit_square(trial.size), tick)
-    errors = means - subjects.reference(job.scene, (1, 1)).image[0, 0]
-    return np.stack([_batches(row, job.batch) for row in errors])
+    means = integrate(scene, sampler, job.counts, realizations, unit_square(trial.size), tick=tick)
+    errors = means - resources.reference(job.scene, UNIT_SQUARE).image[0, 0]
+    sums = np.zeros((len(errors), -(-trial.size // job.batch), COLUMNS))
+    for own, batches in zip(errors, sums, strict=True):
+        _sum_batches(own, job.batch, batches)
+    return sums
 
 
 @kernel("void(float64[::1], int64, float64[:,::1])")
 def _sum_batches(errors: Array, batch: int, columns: Array) -> None:
-    """Write the sums over batches of the errors float64[T] of single pixels to float64[B, COLUMNS], which are 0."""
+    """Add the errors float64[T] of single pixels, batch by batch, to float64[B, COLUMNS], which holds zeros."""
     for b in range(columns.shape[0]):
         first = b * batch
         last = min(first + batch, errors.size)
@@ -90,22 +107,16 @@ def _sum_batches(errors: Array, batch: int, columns: Array) -> None:
                 columns[b, PRODUCT] += errors[t] * errors[t + 1]
 
 
-def _batches(errors: Array, batch: int) -> Array:
-    columns = np.zeros((-(-errors.size // batch), COLUMNS))
-    _sum_batches(np.ascontiguousarray(errors), batch, columns)
-    return columns
+def _sum_images(job: Job, resources: Resources, tick: Tick) -> Array:
+    """Sum trials of images: float64[counts, batches, COLUMNS]."""
+    scene, sampler = resources.scene(job.scene), resources.sampler(job.sampler)
+    reference = resources.reference(job.scene, job.size).image.ravel()
+    pixels = resources.pixels(job.scene, job.size)
 
+    def constant_means(count: int) -> Array:
+        return resources.once(("constant means", job.scene, job.size, count), lambda: pixels.constant_means(count))
 
-def _means(job: Job, subjects: Subjects, realizations: Realizations, boxes: Array, tick: Tick) -> Array:
-    """The estimates float64[counts, P]."""
-    scene, sampler = subjects.scene(job.scene), subjects.sampler(job.sampler)
-    return integrate(scene, sampler, job.counts, realizations, boxes, tick=tick)
-
-
-def _of_images(job: Job, subjects: Subjects, tick: Tick) -> Array:
-    reference = subjects.reference(job.scene, job.size).image.ravel()
-    pixels = subjects.pixels(job.scene, job.size)
-    constant = np.stack([_constant_means(job, subjects, count) for count in job.counts])
+    constant = np.stack([constant_means(count) for count in job.counts])
     rows = np.zeros((job.last - job.first, len(job.counts), COLUMNS))
     previous = np.empty((len(job.counts), reference.size))
     for number, trial in enumerate(range(job.first, job.last)):
@@ -113,19 +124,19 @@ def _of_images(job: Job, subjects: Subjects, tick: Tick) -> Array:
         seed = seed_of(job.seed, trial)
         for start in range(0, pixels.sampled.size, _PIXELS_AT_ONCE):
             part = pixels.sampled[start : start + _PIXELS_AT_ONCE]
-            images[:, part] = _means(job, subjects, *pixels.locate(part, seed), tick)
+            images[:, part] = integrate(scene, sampler, job.counts, *pixels.locate(part, seed), tick=tick)
         errors = images - reference
         for row, error in enumerate(errors):
-            rows[number, row] = _of_image(error, job.size)
+            rows[number, row] = _sum_image(error, job.size)
             if trial % 2 == 1 and number > 0:
-                rows[number - 1, row, PAIRS : PRODUCT + 1] = _product(error, previous[row])
+                rows[number - 1, row, PAIRS : PRODUCT + 1] = _sum_pair(error, previous[row])
         previous = errors
     starts = np.arange(0, job.last - job.first, job.batch)
     return np.add.reduceat(rows, starts, axis=0).transpose(1, 0, 2)
 
 
-def _of_image(error: Array, size: tuple[int, int]) -> Array:
-    """The columns of one image's error float64[P], those of its pair left 0."""
+def _sum_image(error: Array, size: tuple[int, int]) -> Array:
+    """Return the columns of one image with the error float64[P]; those of its pair are 0."""
     columns = np.zeros(COLUMNS)
     valid = np.isfinite(error * error)
     if not valid.any():
@@ -140,8 +151,8 @@ def _of_image(error: Array, size: tuple[int, int]) -> Array:
     return columns
 
 
-def _product(error: Array, other: Array) -> tuple[float, float]:
-    """1 and the mean product of the errors of a pair; 0 and 0 where no pixel has both."""
+def _sum_pair(error: Array, other: Array) -> tuple[float, float]:
+    """Return 1 and the mean product of the errors of two images; 0 and 0 if no pixel is finite in both."""
     products = error * other
     mean = _mean(products)
     if not np.isfinite(mean):
@@ -152,9 +163,3 @@ def _product(error: Array, other: Array) -> tuple[float, float]:
 
 def _mean(values: Array) -> float:
     return float(values.mean()) if values.size else 0.0
-
-
-def _constant_means(job: Job, subjects: Subjects, count: int) -> Array:
-    """Return the image float64[P] of the pixels that are not sampled, NaN elsewhere."""
-    pixels = subjects.pixels(job.scene, job.size)
-    return subjects.kept(("constant means", job.scene, job.size, count), lambda: pixels.constant_means(count))

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from numpy.typing import NDArray
 
-    from samplekit._stability.sweep import Stability
+    from samplekit._stability.results import Stability
     from samplekit._stability.verdict import Kind
 
 _CELL_WIDTH, _CELL_HEIGHT = 0.46, 0.17

@@ -8,13 +8,13 @@ import pytest
 
 from samplekit._study.results import (
     Choice,
-    Clock,
     Fit,
     Interval,
     LeftOut,
     Pictures,
     Results,
     Row,
+    Seconds,
     Spread,
     Times,
 )
@@ -43,9 +43,9 @@ def around(value: float, share: float) -> Interval:
     return Interval(value, value * (1 - share), value * (1 + share))
 
 
-def clock(seconds: float) -> Clock:
+def clock(seconds: float) -> Seconds:
     spread = Spread(seconds, 0.9 * seconds, 1.2 * seconds)
-    return Clock(spread, spread)
+    return Seconds(spread, spread)
 
 
 def make_row(

@@ -10,8 +10,7 @@ from pathlib import Path
 import pytest
 
 from samplekit._errors import SamplekitError
-from samplekit._report import write_report
-from samplekit._report.page import SCRIPTS, STYLES, page
+from samplekit._report.page import SCRIPTS, STYLES, page, write_report
 from samplekit._report.pixels import BUDGET
 
 ASSETS = files("samplekit._report") / "assets"

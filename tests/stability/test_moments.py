@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import samplekit
-from samplekit._stability.cell import _root_mean_square, _spread
+from samplekit._stability.measurement import _root_mean_square, _spread
 
 ROUNDOFF = Fraction(1, 2**53)
 

@@ -1,4 +1,4 @@
-"""The sweep: verdicts that say what is so, and none that call a miss a success."""
+"""The sweep: verdicts are true, and an estimate that missed everything is not called right."""
 
 import math
 
@@ -8,8 +8,9 @@ import pytest
 import samplekit
 from samplekit import Option, SceneSpec
 from samplekit._bases.reference import Reference
-from samplekit._stability.cell import measure
-from samplekit._stability.sweep import precision_lost_beyond, scenes_of, sweep
+from samplekit._stability.measurement import measure
+from samplekit._stability.results import precision_lost_beyond
+from samplekit._stability.sweep import scenes_of, sweep
 from samplekit._stability.verdict import judge
 
 EDGES = np.array([0.0, 1.0])

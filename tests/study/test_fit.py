@@ -1,4 +1,4 @@
-"""Fits: exact laws are found exactly, intervals cover, and wobble is not taken for precision."""
+"""Fits: exact laws are found exactly, intervals cover the truth, and scatter about the law widens them."""
 
 import numpy as np
 import pytest

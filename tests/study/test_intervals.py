@@ -1,4 +1,4 @@
-"""Intervals: they cover the truth as often as they say, and say so where there is none."""
+"""Intervals: they cover the truth as often as they state, and are missing where nothing tells one."""
 
 import math
 
@@ -9,8 +9,10 @@ import samplekit
 from samplekit._study.errors import errors_of, ratio_of
 from samplekit._study.intervals import mean_interval, positive_interval
 from samplekit._study.jobs import Job
-from samplekit._study.subjects import Subjects
+from samplekit._study.resources import Resources
 from samplekit._study.trials import COLUMNS, ERROR, PAIRS, PRODUCT, SQUARE, TRIALS, carry_out
+
+pytestmark = pytest.mark.slow
 
 STUDIES, COUNT = 400, 16
 
@@ -36,7 +38,7 @@ def covered(interval, truth):
 def test_intervals_cover_in_90_to_99_of_100_studies(scene, sampler, trials):
     # At a true 95 %, the share of 400 has a standard deviation of 1.1 %: 90 and 99 are 4.6 and 3.7 of them away.
     job = Job(scene, sampler, (COUNT,), 0, STUDIES * trials, 1, (1, 1), 3)
-    studies = carry_out(job, Subjects())[0].reshape(STUDIES, trials, COLUMNS)
+    studies = carry_out(job, Resources())[0].reshape(STUDIES, trials, COLUMNS)
     errors = [errors_of(study, one_pixel=True) for study in studies]
     truth = variance(scene, sampler)
     for name, value in (("mse", truth), ("rmse", math.sqrt(truth)), ("variance", truth), ("bias", 0.0)):

@@ -1,4 +1,4 @@
-"""Results as JSON: read back as they were, and nothing else is read."""
+"""Results as JSON: they are read back unchanged, and damaged or foreign text is refused."""
 
 import json
 import math

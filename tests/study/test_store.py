@@ -1,19 +1,19 @@
-"""The store: what is kept is kept, and nothing that does not belong is taken for it."""
+"""The store: it loses nothing that was done, and refuses files that are damaged or belong to another study."""
 
 import sqlite3
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
 
 from samplekit._errors import SamplekitError, UsageError
-from samplekit._study.cells import lay_out
+from samplekit._study.analysis import Analysis
+from samplekit._study.combinations import list_combinations
 from samplekit._study.folder import check_folder
 from samplekit._study.jobs import Job
 from samplekit._study.request import checked_request
-from samplekit._study.rows import Analysis
+from samplekit._study.resources import Resources
 from samplekit._study.store import NAME, Store
-from samplekit._study.subjects import Subjects
 from samplekit._study.trials import COLUMNS, carry_out
 
 REQUEST = checked_request(["disk"], ["random"], [4], 8, (1, 1), 0)
@@ -29,7 +29,7 @@ def opened(tmp_path):
         store = Store(tmp_path)
         stores.append(store)
         try:
-            store.begin(request.plain(), versions)
+            store.begin(asdict(request), versions)
         except UsageError:
             store.close()
             raise
@@ -41,16 +41,16 @@ def opened(tmp_path):
 
 
 def test_sums_come_back_in_the_order_of_their_trials(opened):
-    (cell,), _ = lay_out(REQUEST, Subjects())
+    (combination,), _ = list_combinations(REQUEST, Resources())
     store = opened()
     parts = {first: np.random.default_rng(first).random((1, 2, COLUMNS)) for first in (4, 0, 2)}
     for first, sums in parts.items():
         store.add(Job("disk", "random", (4,), first, first + 2, 1, (1, 1), 0), sums)
     store.close()
     again = opened()
-    assert again.ranges(cell) == [(0, 2), (2, 4), (4, 6)]
-    assert np.array_equal(again.sums(cell), np.concatenate([parts[first][0] for first in (0, 2, 4)]))
-    assert again.sums(replace(cell, count=5)).shape == (0, COLUMNS)
+    assert again.ranges(combination) == [(0, 2), (2, 4), (4, 6)]
+    assert np.array_equal(again.sums(combination), np.concatenate([parts[first][0] for first in (0, 2, 4)]))
+    assert again.sums(replace(combination, count=5)).shape == (0, COLUMNS)
 
 
 def test_two_at_once_are_refused(opened, tmp_path):
@@ -97,7 +97,7 @@ def test_other_formats_and_other_files_are_refused(opened, tmp_path):
     ],
 )
 def test_numbers_that_changed_in_the_file_are_no_results(opened, tmp_path, damage):
-    (cell,), _ = lay_out(REQUEST, Subjects())
+    (combination,), _ = list_combinations(REQUEST, Resources())
     store = opened()
     store.add(Job("disk", "random", (4,), 0, 2, 1, (1, 1), 0), np.ones((1, 2, COLUMNS)))
     store.close()
@@ -107,7 +107,7 @@ def test_numbers_that_changed_in_the_file_are_no_results(opened, tmp_path, damag
     again = opened()
     for ask in (again.ranges, again.sums):
         with pytest.raises(UsageError, match=r"damaged.*choose another folder"):
-            ask(cell)
+            ask(combination)
 
 
 @pytest.mark.parametrize("damage", ["request = 'x'", "versions = '{'", "request = NULL", "versions = X'80'"])
@@ -121,31 +121,31 @@ def test_a_request_that_changed_in_the_file_is_damage(opened, tmp_path, damage):
 
 
 def test_full_disk_loses_nothing_done(opened):
-    (cell,), _ = lay_out(REQUEST, Subjects())
+    (combination,), _ = list_combinations(REQUEST, Resources())
     store = opened()
     store._database.execute("PRAGMA max_page_count = 30")
     job = Job("disk", "random", (4,), 0, 1000, 1, (1, 1), 0)
-    sums = carry_out(job, Subjects())
+    sums = carry_out(job, Resources())
     store.add(job, sums)
     with pytest.raises(SamplekitError, match=r"cannot write .*full.*--resume"):
         store.add(replace(job, first=1000, last=2000), np.repeat(sums, 10, axis=1))
     store.close()
     again = opened()
-    assert again.ranges(cell) == [(0, 1000)]
-    assert np.array_equal(again.sums(cell), sums[0])
+    assert again.ranges(combination) == [(0, 1000)]
+    assert np.array_equal(again.sums(combination), sums[0])
 
 
 def test_times_of_another_kind_of_machine_do_not_count(opened):
-    subjects = Subjects()
-    (cell,), _ = lay_out(REQUEST, subjects)
+    resources = Resources()
+    (combination,), _ = list_combinations(REQUEST, resources)
     store = opened()
     store.add(Job("disk", "random", (4,), 0, 8, 1, (1, 1), 0), np.ones((1, 8, COLUMNS)))
-    store.add_laps("slow", [(cell, (9.0, 9.0, 9.0, 9.0))] * 5)
-    store.add_laps("fast", [(cell, (1.0, 2.0, 3.0, 4.0))] * 5)
-    (row,) = Analysis(REQUEST, [cell], store, subjects, "fast", 10.0, None).rows()
+    store.add_laps("slow", [(combination, (9.0, 9.0, 9.0, 9.0))] * 5)
+    store.add_laps("fast", [(combination, (1.0, 2.0, 3.0, 4.0))] * 5)
+    (row,) = Analysis(REQUEST, [combination], store, resources, "fast", 10.0, None).rows()
     assert (row.times.points.cpu.median, row.times.total.wall.upper, row.times.laps) == (1.0, 6.0, 5)
     assert row.time == pytest.approx(4.0 + 4 * 10e-9)
-    (row,) = Analysis(REQUEST, [cell], store, subjects, "third", 0.0, None).rows()
+    (row,) = Analysis(REQUEST, [combination], store, resources, "third", 0.0, None).rows()
     assert (row.times, row.time) == (None, None)
 
 
@@ -154,7 +154,7 @@ def test_folders(tmp_path):
     check_folder(tmp_path / "new", resume=True)
     (tmp_path / "new" / NAME).touch()
     check_folder(tmp_path / "new", resume=True)
-    with pytest.raises(UsageError, match="--resume goes on"):
+    with pytest.raises(UsageError, match="--resume continues"):
         check_folder(tmp_path / "new", resume=False)
     (tmp_path / "new" / "thesis.tex").touch()
     with pytest.raises(UsageError, match=r"holds 'thesis.tex'"):

@@ -1,4 +1,4 @@
-"""Jobs: what a trial gives depends on nothing but the trial; progressive sets are drawn once."""
+"""Jobs and trials: a trial depends on nothing else, and the prefixes of a progressive set share one draw."""
 
 import numpy as np
 import pytest
@@ -7,10 +7,10 @@ import samplekit
 from samplekit._bases.realizations import Realizations
 from samplekit._integrate.loop import integrate, unit_square
 from samplekit._metrics import metrics
-from samplekit._study.cells import lay_out
+from samplekit._study.combinations import list_combinations
 from samplekit._study.jobs import Job, batch_of, gaps, split
 from samplekit._study.request import checked_request
-from samplekit._study.subjects import Subjects
+from samplekit._study.resources import Resources
 from samplekit._study.trials import BLURRED, ERROR, INVALID, PAIRS, PRODUCT, SQUARE, TRIALS, carry_out, seed_of
 
 
@@ -20,16 +20,16 @@ def job(sampler, counts, first, last, *, batch=1, size=(1, 1), scene="disk", see
 
 @pytest.mark.parametrize(("sampler", "counts"), [("sobol+owen", (3, 16, 1500)), ("jittered", (60,))])
 def test_blocks_of_trials_are_parts_of_the_whole(sampler, counts):
-    subjects = Subjects()
-    whole = carry_out(job(sampler, counts, 0, 24, batch=4), subjects)
-    parts = [carry_out(job(sampler, counts, first, first + 8, batch=4), Subjects()) for first in (0, 8, 16)]
+    resources = Resources()
+    whole = carry_out(job(sampler, counts, 0, 24, batch=4), resources)
+    parts = [carry_out(job(sampler, counts, first, first + 8, batch=4), Resources()) for first in (0, 8, 16)]
     assert np.array_equal(whole, np.concatenate(parts, axis=1))
-    single = carry_out(job(sampler, counts, 0, 24), subjects)
+    single = carry_out(job(sampler, counts, 0, 24), resources)
     assert np.allclose(single.reshape(len(counts), 6, 4, -1).sum(axis=2), whole, rtol=1e-14, atol=0.0)
 
 
 def test_images_are_those_of_renderings():
-    sums = carry_out(job("sobol+owen", (4, 9), 0, 3, size=(24, 16)), Subjects())
+    sums = carry_out(job("sobol+owen", (4, 9), 0, 3, size=(24, 16)), Resources())
     for row, count in enumerate((4, 9)):
         errors = []
         for trial in range(3):
@@ -60,7 +60,7 @@ def test_prefixes_are_the_estimates_of_their_own_sets():
 
 def test_trials_of_samplers_that_spread_error_over_pixels_are_independent():
     # Neighbouring pixels' errors of z-sobol go against each other by design. 4 standard deviations of a correlation.
-    errors = carry_out(job("z-sobol", (16,), 0, 4000), Subjects())[0, :, ERROR]
+    errors = carry_out(job("z-sobol", (16,), 0, 4000), Resources())[0, :, ERROR]
     assert abs(np.corrcoef(errors[:-1], errors[1:])[0, 1]) < 4.0 / np.sqrt(4000)
 
 
@@ -80,10 +80,10 @@ def test_values_that_are_not_finite_are_counted(plugins):
         """,
     )
     plugins.offer("holed", "scene", 'SceneSpec("holes", "holes:Holes", "NaN at the left")')
-    square = carry_out(job("random", (4,), 0, 1000, scene="holes"), Subjects())[0]
+    square = carry_out(job("random", (4,), 0, 1000, scene="holes"), Resources())[0]
     assert 10 < square[:, INVALID].sum() == 1000 - square[:, TRIALS].sum() < 90
     assert square[:, SQUARE].max() == 0.0
-    image = carry_out(job("random", (4,), 0, 1, scene="holes", size=(50, 2)), Subjects())[0, 0]
+    image = carry_out(job("random", (4,), 0, 1, scene="holes", size=(50, 2)), Resources())[0, 0]
     assert image[INVALID] == 2.0
     assert (image[TRIALS], image[SQUARE]) == (1.0, 0.0)
     found = samplekit.compare("random", "holes", 4, trials=50, size=(1, 1), times=False)
@@ -105,8 +105,8 @@ def test_jobs_fill_the_gaps_and_no_more():
 
 def test_jobs_share_out_what_is_missing():
     request = checked_request(["disk"], ["random", "sobol"], [4, 8], 100, (1, 1), 0)
-    cells, _ = lay_out(request, Subjects())
-    random = [cell for cell in cells if cell.sampler == "random"]
+    combinations, _ = list_combinations(request, Resources())
+    random = [combination for combination in combinations if combination.sampler == "random"]
     jobs = split(request, random, lambda _: [(0, 30), (40, 100)], dict.fromkeys(random, 0.03), 2)
     assert {job.counts for job in jobs} == {(4, 8)}
     trials = sorted((job.first, job.last) for job in jobs)

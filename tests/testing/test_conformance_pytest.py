@@ -3,6 +3,10 @@
 import subprocess
 import sys
 
+import pytest
+
+pytestmark = pytest.mark.slow
+
 PYTEST = ("pytest", "-q", "-p", "no:cacheprovider", "-rA")
 FEW = "strata or range or light or elementary"
 SUITE = (*PYTEST, "--pyargs", "samplekit.testing", "--samplekit-quick")
@@ -56,8 +60,8 @@ def test_a_class_for_what_is_not_installed(samplekit_with, tmp_path):
     assert "it is not installed" in result.stdout
 
 
-def test_the_plugin_imports_pytest_alone():
-    """Every run of pytest in its environment loads it: nothing comes with it but what makes imports lazy."""
+def test_the_plugin_imports_little():
+    """It is loaded in every run of pytest in its environment."""
     program = (
         "import sys, pytest; before = set(sys.modules); import samplekit.testing._pytest_plugin;"
         "print(*sorted({m.partition('.')[0] for m in set(sys.modules) - before}))"

@@ -10,6 +10,8 @@ from samplekit.testing import check_scene
 from samplekit.testing._result import broken
 from samplekit.testing._suite import SCENE_CHECKS
 
+pytestmark = pytest.mark.slow
+
 NAMES = [name for name, offer in registry().all("scene").items() if offer.plugin.name == BUILTIN]
 
 

@@ -30,6 +30,7 @@ def test_the_ratio_is_1_within_its_interval(sampler, scene):
     assert 0.85 < row.ratio_low <= 1.0 <= row.ratio_high < 1.15
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("sampler", "count"), [("poisson-disk", 100), ("lloyd", 64), ("ccvt", 64)])
 def test_blue_noise_is_predicted_from_fresh_sets(sampler, count):
     pytest.importorskip("samplekit_bluenoise")
@@ -40,17 +41,18 @@ def test_blue_noise_is_predicted_from_fresh_sets(sampler, count):
     assert (row.measured.trials, row.native.trials) == (2000, 50)
 
 
+class Grids(Sampler):
+    """Grids under a shift of each realisation."""
+
+    def draw(self, count, dims, rng):
+        side = math.isqrt(count)
+        x, y = np.meshgrid(np.arange(side), np.arange(side))
+        return (np.stack([x.ravel(), y.ravel()], axis=1) + rng.random(2)) / side
+
+
 def test_a_centre_as_dark_as_it_may_be_is_not_left_out():
-    """Grids of 16 x 16 under a shift of each realisation: all below 16 is 0, and the rest is the shifted grid's."""
-
-    class Grids(Sampler):
-        def draw(self, count, dims, rng):
-            side = math.isqrt(count)
-            x, y = np.meshgrid(np.arange(side), np.arange(side))
-            return (np.stack([x.ravel(), y.ravel()], axis=1) + rng.random(2)) / side
-
-    grids = samplekit.sampler("multi-jittered")
-    grids._sampler = Grids()
+    """Grids of 16 x 16: all below 16 is 0, and the rest is the shifted grid's."""
+    grids = samplekit.sampler(samplekit.SamplerSpec("grids", f"{__name__}:Grids", "shifted grids", dimensions=(2, 2)))
     row = predict(grids, "disk", 256, trials=2000, realizations=32, native=False)
     exact = predict("regular", "disk", 256, trials=4, native=False).predicted.variance
     assert 0.85 < row.ratio < 1.15
@@ -75,6 +77,7 @@ def test_a_set_is_shifted_several_times_and_no_tile_changes_that():
         np.testing.assert_array_equal(part, whole[first:stop])
 
 
+@pytest.mark.slow
 def test_the_standard_errors_are_those_of_other_seeds():
     """Chi squared of 8 seeds, a false alarm of 1e-3 to either side, with strata of different numbers of sets."""
     exact = 0.09 * math.pi * (1.0 - 0.09 * math.pi) / 16
@@ -152,6 +155,7 @@ def test_a_wrong_prediction_is_told():
     assert row.predicted.tail > 0.1 * row.predicted.variance
 
 
+@pytest.mark.slow
 def test_the_tail_beyond_a_square_is_off_the_axes():
     """The axes are summed further, and are darker: a smaller square with its tail gives what a larger one sums."""
     settings = {"trials": 4, "realizations": 200, "native": False}

@@ -87,7 +87,7 @@ def test_every_pixel_is_sampled_but_without_a_sphere_none():
     bare = samplekit.render("ambient-occlusion:radius=0", "random", 4, size=(16, 16))
     full = samplekit.render("ambient-occlusion:radius=0", "random", 4, size=(16, 16), full=True)
     assert bare.metrics["samples"] == 0
-    assert bare.plan.scene.needs == {"pixel": 2}
+    assert bare.plan.pixels.scene.needs == {"pixel": 2}
     np.testing.assert_array_equal(bare.image, full.image)
     np.testing.assert_array_equal(bare.image, 1.0)
 

@@ -125,7 +125,7 @@ class NeverHadALens(Scene):
 
 def test_without_aperture_the_image_is_that_of_a_scene_without_a_lens():
     with_option = samplekit.render("depth-of-field:aperture=0", "random", 4, size=(40, 30), seed=3, error=False)
-    assert with_option.plan.scene.needs == {"pixel": 2}
+    assert with_option.plan.pixels.scene.needs == {"pixel": 2}
     pinhole = samplekit.scene("depth-of-field:aperture=0")
     pinhole._scene = NeverHadALens()
     without = samplekit.render(pinhole, "random", 4, size=(40, 30), seed=3, error=False)
@@ -138,7 +138,7 @@ def test_a_pinhole_is_what_an_aperture_of_nearly_nothing_shows():
     for sampler in ("random", "sobol+owen", "latin-hypercube"):
         pinhole = samplekit.render("depth-of-field:aperture=0", sampler, 16, size=(32, 32), error=False)
         nearly = samplekit.render("depth-of-field:aperture=1e-12", sampler, 16, size=(32, 32), error=False)
-        assert nearly.plan.scene.dims == 4
+        assert nearly.plan.pixels.scene.dims == 4
         np.testing.assert_array_equal(pinhole.image, nearly.image)
 
 

@@ -127,7 +127,7 @@ def test_what_is_left_out_of_motion_changes_no_bit(variant):
 
 def test_estimates_agree_with_the_reference_in_five_dimensions():
     result = samplekit.render("motion-blur:aperture=0.05", "random", 1024, size=(20, 20), seed=6)
-    varying = np.isnan(result.plan.constant)
+    varying = np.isnan(result.plan.pixels.constant).reshape(result.image.shape)
     # A pixel's variance is at most 1/4 (values span less than 1): |mean of errors| < 4 sigma, a false alarm in 16 000.
     assert abs(result.error[varying].mean()) < 4 * 0.5 / math.sqrt(1024 * varying.sum())
     assert result.metrics["mse"] < 0.25 / 1024

@@ -1,34 +1,37 @@
-"""Which rows there are: counts that a sampler cannot make are replaced by the nearest below, visibly."""
+"""Combinations: a count that a sampler cannot make is replaced by the nearest below, and the row says so."""
 
 import numpy as np
 import pytest
 
 import samplekit
 from samplekit._errors import UsageError
-from samplekit._study.cells import lay_out
+from samplekit._study.combinations import list_combinations
 from samplekit._study.request import checked_request
-from samplekit._study.subjects import Subjects
+from samplekit._study.resources import Resources
 
 
-def cells_of(samplers, counts, *, scenes=("disk",), trials=8, size=(1, 1)):
-    return lay_out(checked_request(scenes, samplers, counts, trials, size, 0), Subjects())
+def combinations_of(samplers, counts, *, scenes=("disk",), trials=8, size=(1, 1)):
+    return list_combinations(checked_request(scenes, samplers, counts, trials, size, 0), Resources())
 
 
 def test_counts_are_replaced_by_the_nearest_below():
-    cells, left_out = cells_of(["jittered", "random"], [13, 14, 16, 97])
-    jittered = {cell.count: cell for cell in cells if cell.sampler == "jittered"}
-    assert {count: cell.asked for count, cell in jittered.items()} == {12: (13, 14), 16: (16,), 96: (97,)}
+    combinations, left_out = combinations_of(["jittered", "random"], [13, 14, 16, 97])
+    jittered = {combination.count: combination for combination in combinations if combination.sampler == "jittered"}
+    assert {count: combination.asked for count, combination in jittered.items()} == {12: (13, 14), 16: (16,), 96: (97,)}
     assert "not 97" in jittered[96].replaced
     assert jittered[16].replaced == ""
-    assert [cell.count for cell in cells if cell.sampler == "random"] == [13, 14, 16, 97]
+    assert [combination.count for combination in combinations if combination.sampler == "random"] == [13, 14, 16, 97]
     assert left_out == []
 
 
 def test_what_cannot_be_made_is_left_out_with_its_reason():
-    cells, left_out = cells_of(
+    combinations, left_out = combinations_of(
         ["orthogonal-array", "random", "poisson-disk"], [2, 9], scenes=["disk", "depth-of-field"]
     )
-    assert {(cell.scene, cell.sampler) for cell in cells} >= {("disk", "poisson-disk"), ("depth-of-field", "random")}
+    assert {(combination.scene, combination.sampler) for combination in combinations} >= {
+        ("disk", "poisson-disk"),
+        ("depth-of-field", "random"),
+    }
     reasons = {(item.scene, item.sampler, item.count): item.reason for item in left_out}
     assert "not 2" in reasons["disk", "orthogonal-array", 2]
     assert "2 dimensions" in reasons["depth-of-field", "poisson-disk", 9]
@@ -36,7 +39,7 @@ def test_what_cannot_be_made_is_left_out_with_its_reason():
 
 def test_nothing_left_is_an_error():
     with pytest.raises(UsageError, match="dimension"):
-        cells_of(["van-der-corput"], [16])
+        combinations_of(["van-der-corput"], [16])
 
 
 def test_sampler_that_is_not_random_has_one_trial():

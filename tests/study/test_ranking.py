@@ -1,4 +1,4 @@
-"""Answers: targets, the front, flips by cost and crossings, against what can be worked out by hand."""
+"""Targets, the best choices, flips by cost, crossings and sentences, against values that were worked out by hand."""
 
 from dataclasses import replace
 from itertools import pairwise
@@ -6,9 +6,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from samplekit._study.crossings import crossings
-from samplekit._study.ranking import flips, front, targets, times_to_target
-from samplekit._study.results import Clock, Interval, Row, Spread, Times
+from samplekit._study.ranking import crossings, flips, front, targets, times_to_target
+from samplekit._study.results import Interval, Row, Seconds, Spread, Times
 from samplekit._study.sentences import seconds_in_words, statements
 
 
@@ -112,7 +111,7 @@ def test_times_in_words(seconds, text):
 
 
 def test_front_does_not_take_turns_by_noise():
-    clock = Clock(Spread(1.0, 0.9, 1.1), Spread(1.0, 0.9, 1.1))
+    clock = Seconds(Spread(1.0, 0.9, 1.1), Spread(1.0, 0.9, 1.1))
     one = row("one", 1, 0.1, 1.0)
     same_error = row("two", 1, 0.0999, 1.01)
     better = row("one", 4, 0.02, 2.0)

@@ -1,4 +1,4 @@
-"""List the rows of a study, and the requested combinations that cannot be run."""
+"""The combinations of scene, sampler and count that a study measures, and those that cannot be run."""
 
 from __future__ import annotations
 
@@ -13,23 +13,31 @@ if TYPE_CHECKING:
     from samplekit._configured.sampler import ConfiguredSampler
     from samplekit._configured.scene import ConfiguredScene
     from samplekit._study.request import Request
-    from samplekit._study.subjects import Subjects
+    from samplekit._study.resources import Resources
 
 _MOST_STEPS = 64
 
 
 @dataclass(frozen=True)
-class Cell:
-    """A row of a study, before it is measured.
+class Combination:
+    """A scene, a sampler and a count: what one row of the results is about.
 
     Attributes
     ----------
-    count
-        Samples in each pixel.
-    asked, replaced
-        The requested counts that ``count`` stands for; the reason, if the sampler cannot make one of them.
+    scene, sampler, count
+        Texts of the scene and the sampler, and the number of samples per pixel.
+    asked
+        The counts of the request that led to ``count``.
+    replaced
+        Why the sampler cannot make one of ``asked``; empty if ``asked`` is ``count`` alone.
+    dims
+        Dimensions of a sample.
+    trials
+        Number of independent realisations.
+    notes
+        What a reader of the row should know.
     shared_draw
-        Whether the set is a prefix of the larger sets of the sampler, so that one draw serves all of them.
+        Whether one draw of the largest count has this set as its prefix, so that several counts share it.
     """
 
     scene: str
@@ -48,61 +56,70 @@ class Cell:
         return self.scene, self.sampler
 
 
-def lay_out(request: Request, subjects: Subjects) -> tuple[list[Cell], list[LeftOut]]:
-    """The cells of a study, scene by scene, sampler by sampler, count rising; and what is left out.
+def list_combinations(request: Request, resources: Resources) -> tuple[list[Combination], list[LeftOut]]:
+    """List the combinations of a study, and the requested ones that cannot be run.
+
+    A count that a sampler cannot make is replaced by the nearest one below.
+
+    Returns
+    -------
+    combinations
+        Scene by scene, sampler by sampler, counts rising.
+    left_out
+        The scenes, samplers and counts without a combination, and the reason.
 
     Raises
     ------
     UsageError
-        Nothing is left; the message is the first reason.
+        Nothing can be run; the message is the first reason.
     """
-    cells: list[Cell] = []
+    combinations: list[Combination] = []
     left_out: list[LeftOut] = []
     for scene_text in request.scenes:
         for sampler_text in request.samplers:
-            scene, sampler = subjects.scene(scene_text), subjects.sampler(sampler_text)
+            scene, sampler = resources.scene(scene_text), resources.sampler(sampler_text)
             found: dict[int, list[int]] = {}
             reasons: dict[int, str] = {}
             for asked in request.counts:
-                count, reason = _possible(scene, sampler, asked)
+                count, reason = _nearest_count(scene, sampler, asked)
                 if count is None:
                     left_out.append(LeftOut(scene_text, sampler_text, asked, reason))
                 else:
                     found.setdefault(count, []).append(asked)
                     reasons[count] = reasons.get(count) or reason
-            cells += [
-                _cell(request, scene, sampler, count, tuple(asked), reasons[count])
+            combinations += [
+                _combination(request, scene, sampler, count, tuple(asked), reasons[count])
                 for count, asked in sorted(found.items())
             ]
-    if not cells:
+    if not combinations:
         raise UsageError(left_out[0].reason)
-    return cells, left_out
+    return combinations, left_out
 
 
-def _possible(scene: ConfiguredScene, sampler: ConfiguredSampler, asked: int) -> tuple[int | None, str]:
-    """Return the largest possible count up to ``asked`` (None: none), and the reason if it is another."""
-    first_reason, count = "", asked
+def _nearest_count(scene: ConfiguredScene, sampler: ConfiguredSampler, asked: int) -> tuple[int | None, str]:
+    """Return the largest possible count up to ``asked``, None if there is none, and why ``asked`` is not possible."""
+    reason, count = "", asked
     for _ in range(_MOST_STEPS):
         try:
             check_points(scene, sampler, count)
-            return count, first_reason
+            return count, reason
         except UsageError as error:
-            first_reason = first_reason or str(error)
+            reason = reason or str(error)
             if not isinstance(error, CountError) or error.below is None:
-                # Fewer points do not help: the count is not what is wrong, or there is none below.
+                # Fewer points do not help: the fault lies elsewhere, or there is no count below.
                 break
             count = error.below
-    return None, first_reason
+    return None, reason
 
 
-def _cell(
+def _combination(
     request: Request,
     scene: ConfiguredScene,
     sampler: ConfiguredSampler,
     count: int,
     asked: tuple[int, ...],
     reason: str,
-) -> Cell:
+) -> Combination:
     notes = list(sampler.notes(count, scene.dims))
     trials = request.trials
     spec = sampler.spec
@@ -116,7 +133,7 @@ def _cell(
         notes.append("a single trial: errors have no interval")
     if not spec.unbiased:
         notes.append("biased: its mean over realisations is not the integral")
-    return Cell(
+    return Combination(
         scene.text,
         sampler.text,
         count,

@@ -1,4 +1,4 @@
-"""One cell of a sweep: a scene, a sampler and a count, measured."""
+"""Measure one cell of a sweep: estimates of a scene, and the same estimates in extended precision."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ import numpy as np
 
 from samplekit._bases.realizations import Realizations
 from samplekit._integrate.loop import integrate, unit_square
+from samplekit._integrate.plan import check_points
 from samplekit._stability.extended import ExtendedSums
 
 if TYPE_CHECKING:
@@ -25,43 +26,44 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 ROUNDOFF = 2.0**-53
-MOST_DIGITS = 16.0
+"""Largest relative error of one rounding to float64."""
+_MOST_DIGITS = 16.0
 
 
 @dataclass(frozen=True)
-class Measured:
-    """What was seen of a scene over the unit square as one pixel.
+class Measurement:
+    """Estimates of a scene over the unit square as one pixel.
 
     Attributes
     ----------
     exact, reference_error
         The reference, and the bound of its error.
     estimate
-        The mean of the estimates.
+        Mean of the estimates over the realisations.
     error
         ``estimate - exact``.
     spread
-        Standard deviation of one estimate, from the realisations; NaN for a sampler that is not random, and of one.
+        Standard deviation of one estimate over the realisations; NaN if the sampler is not random or there is only one
+        realisation.
     standard_error
-        Of ``estimate``: ``spread`` over the square root of the number of realisations.
+        Standard error of ``estimate``: ``spread`` divided by the square root of the number of realisations.
     rms_error
-        Root mean square over the realisations of estimate less exact.
+        Root mean square of the errors of the estimates.
     sampling_error
-        As ``spread``, of the run in extended precision: what is left of the error where nothing is rounded.
+        As ``spread``, for the run in extended precision: the error that is left if nothing is rounded.
     arithmetic_error
-        The largest difference over the realisations between the estimate and that of the run in extended precision.
+        Largest difference between an estimate and the same estimate in extended precision.
     digits_lost
-        Decimal digits that summation lost, of those that one rounding of the mean magnitude leaves, in the worst
-        realisation: 0 is one rounding.
+        Decimal digits that summation lost in the worst realisation, beyond one rounding of the mean magnitude.
     magnitude
         Mean of the magnitudes of all values.
     deviation
         Standard deviation of the values.
     hits
-        The effective number of samples that differ from the commonest value: with d the distance from the median,
-        (sum d)² / sum d² (Kish 1965, "Survey Sampling"). Of a set in bright light: the number of samples inside.
+        Effective number of samples that differ from the most common value: (sum d)² / sum d², where d is the distance
+        from the median (Kish 1965, "Survey Sampling"). For the indicator of a set it is the number of samples inside.
     invalid, samples
-        Values that are not finite, and all, over all realisations.
+        Number of values that are not finite, and of all values, over all realisations.
     """
 
     exact: float
@@ -82,12 +84,12 @@ class Measured:
 
     @property
     def allowance(self) -> float:
-        """Error that is put down to rounding: of the reference, of the values and of their sum."""
+        """Error that rounding may cause: in the reference, in the values and in their sum."""
         return self.reference_error + 32.0 * ROUNDOFF * max(abs(self.exact), self.magnitude)
 
     @property
     def standard_errors(self) -> float:
-        """The error beyond the allowance in standard errors; NaN where there is none."""
+        """The error beyond the allowance, in standard errors; NaN if there is no standard error."""
         beyond = max(0.0, abs(self.error) - self.allowance)
         if not self.standard_error > 0.0:
             return 0.0 if beyond == 0.0 else math.nan
@@ -95,28 +97,24 @@ class Measured:
 
     @property
     def digits_right(self) -> float:
-        """Decimal digits of one estimate that are right, from 0 to 16."""
+        """Correct decimal digits of one estimate, from 0 to 16."""
         scale = abs(self.exact) or self.magnitude
-        return _digits(self.rms_error, scale)
-
-
-def _digits(error: float, scale: float) -> float:
-    if not math.isfinite(error):
-        return 0.0
-    if error == 0.0:
-        return MOST_DIGITS
-    return min(max(-math.log10(error / scale), 0.0), MOST_DIGITS) if scale > 0.0 and error < scale else 0.0
+        if self.rms_error == 0.0:
+            return _MOST_DIGITS
+        if not (self.rms_error < scale and scale > 0.0):
+            return 0.0
+        return min(max(-math.log10(self.rms_error / scale), 0.0), _MOST_DIGITS)
 
 
 def _digits_lost(errors: Array, magnitudes: Array) -> float:
-    """Decimal digits of the largest of the errors in roundings of the magnitudes, at least 0."""
+    """Return the decimal digits of the largest error, in roundings of its magnitude; at least 0."""
     seen = (errors != 0.0) & (magnitudes > 0.0)
     roundings = np.abs(errors[seen]) / (magnitudes[seen] * ROUNDOFF)
     return max(0.0, math.log10(float(roundings.max()))) if roundings.size else 0.0
 
 
 class _Moments:
-    """Deviation and hits of all values, block after block, about the median of the first block."""
+    """Deviation and hits of all values, summed block by block about the median of the first block."""
 
     def __init__(self) -> None:
         self.finite = self.invalid = 0
@@ -132,7 +130,7 @@ class _Moments:
             return
         if math.isnan(self._centre):
             self._centre = float(np.partition(finite, finite.size // 2)[finite.size // 2])
-        # Squares of 1e200 overflow: everything is in units of a power of two that is at least the largest so far.
+        # Squares of 1e200 overflow: all sums are in units of a power of two, at least as large as the largest value.
         largest = float(np.abs(finite).max()) + abs(self._centre)
         if largest > self._scale:
             scale = 2.0 ** min(math.frexp(largest)[1], 1023)
@@ -166,16 +164,25 @@ def measure(
     seed: int,
     reference: Reference,
     tick: Callable[[int], None] = lambda _: None,
-) -> Measured:
-    """Estimate a scene ``realizations`` times over, and once more in extended precision from the same points.
+) -> Measurement:
+    """Estimate a scene several times, and each time in extended precision from the same points.
+
+    Parameters
+    ----------
+    scene, sampler, count
+        The integrand, the sampler, and the number of samples of an estimate.
+    realizations, seed
+        Number of independent estimates, and their seed.
+    reference
+        The exact mean over the unit square, as an image of one pixel.
+    tick
+        Called now and then with the number of samples done since the last call.
 
     Raises
     ------
     UsageError
-        The sampler does not make such sets.
+        The sampler cannot make such sets.
     """
-    from samplekit._integrate.plan import check_points
-
     check_points(scene, sampler, count)
     sampler.prepare(count, scene.dims)
     trials = Realizations.of_trials(0, realizations, seed, scene.blocks)
@@ -187,7 +194,7 @@ def measure(
         magnitudes.add((np.abs(values),))
         extended.add(scene.parts(tile, boxes))
 
-    # All realisations in one tile: the moments are about the median of the first block of all of them.
+    # All realisations share one tile, so the moments are about the median of the first block of all realisations.
     (estimates,) = integrate(
         scene, sampler, (count,), trials, unit_square(realizations), tick=tick, observe=observe, tile_bytes=sys.maxsize
     )
@@ -199,7 +206,7 @@ def measure(
         random = sampler.spec.randomized and realizations > 1
         spread, sampling_error = (_spread(each) if random else math.nan for each in (errors, unrounded))
     finite = bool(np.isfinite(estimates).all())
-    return Measured(
+    return Measurement(
         exact=exact,
         reference_error=reference.error,
         estimate=_mean(estimates) if finite else math.nan,
@@ -219,16 +226,17 @@ def measure(
 
 
 def _mean(values: Array) -> float:
-    """The mean, rounded twice; values near the largest float do not overflow their sum."""
+    """Return the mean, rounded twice. The sum of values near the largest float does not overflow."""
     shrink = 0.5 ** values.size.bit_length() if float(np.abs(values).max()) > 2.0**900 else 1.0
     return math.fsum((values * shrink).tolist()) / values.size / shrink
 
 
 def _root_mean_square(values: Array) -> float:
+    """Return the root mean square. Squares of very large or very small values do not overflow or vanish."""
     largest = float(np.abs(values).max())
     return math.sqrt(_mean(np.square(values / largest))) * largest if largest > 0.0 else 0.0
 
 
 def _spread(values: Array) -> float:
-    """Standard deviation about the mean, unbiased in its square."""
+    """Return the standard deviation about the mean; its square is unbiased."""
     return _root_mean_square(values - _mean(values)) * math.sqrt(values.size / (values.size - 1))

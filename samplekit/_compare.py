@@ -5,10 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from samplekit._study.options import ExecutionOptions
-from samplekit._study.request import Request, checked_request
+from samplekit._study.request import UNIT_SQUARE, ExecutionOptions, Request, checked_request
+from samplekit._study.resources import Resources
 from samplekit._study.study import Study
-from samplekit._study.subjects import Subjects
 
 if TYPE_CHECKING:
     import os
@@ -16,17 +15,14 @@ if TYPE_CHECKING:
 
     from samplekit._study.results import Results
 
-TRIALS = 32
-SIZE = (128, 128)
-
 
 def compare(
     samplers: str | Sequence[str],
     scenes: str | Sequence[str],
     spp: int | Sequence[int],
     *,
-    trials: int = TRIALS,
-    size: tuple[int, int] = SIZE,
+    trials: int = 32,
+    size: tuple[int, int] = (128, 128),
     seed: int = 0,
     threads: int | None = None,
     processes: int = 1,
@@ -45,36 +41,37 @@ def compare(
     Parameters
     ----------
     samplers, scenes
-        As on the command line; one or several of each. Over the unit square, samplers that reuse sets make every
-        realisation afresh, which their rows say: ``ccvt:bank=0``.
+        Texts as on the command line; one or several of each. Over the unit square, samplers that reuse sets make every
+        realisation afresh, and their rows say so: ``ccvt:bank=0``.
     spp
-        Samples of a pixel. A count that a sampler cannot make is replaced by the nearest below, which the row says.
+        Samples per pixel. A count that a sampler cannot make is replaced by the nearest below, and the row says so.
     trials
-        Independent realisations; with one there are no intervals.
+        Number of independent realisations; with one there are no intervals.
     size
         (width, height) in pixels; (1, 1): the unit square as one pixel.
     seed
         From 0 to 2^64 - 1.
     threads, processes
-        How many of them share the work; errors do not depend on it. None: as many threads as there are processors.
-        Times are always those of one thread. Processes begin by importing the calling script: it needs the usual
-        guard, ``if __name__ == "__main__":``.
+        Number of threads or processes that share the work; errors do not depend on it. None: a thread for each
+        processor. Times are always those of one thread. Processes begin by importing the calling script, which needs
+        the usual guard, ``if __name__ == "__main__":``.
     dask
         Address of a Dask scheduler whose workers compute the errors.
     times, budget
-        Measure run times, for so many seconds; None: a tenth of what the errors take, and at least one.
+        Whether run times are measured, and for how many seconds; None: a tenth of the time that the errors take, and at
+        least one second.
     cost
         Extra cost per sample, in nanoseconds, as if a renderer shaded it.
     target
         Target mean squared error for the time-to-target table; None: one for each scene that all samplers reach.
     fit
-        First and last count that slopes are fitted to; None: all.
+        First and last count that slopes are fitted to; None: all counts.
     output
         A folder for all files of the study; None: no files.
     resume
-        Go on with the study in the folder.
+        Whether to continue the study in the folder.
     progress
-        Called with what is being done, how much of it is, and how much there is.
+        Called with what is being done, how much of it is done, and how much there is.
 
     Returns
     -------
@@ -85,7 +82,7 @@ def compare(
     UsageError
         The request cannot be carried out.
     SamplekitError
-        A plugin failed, or a file cannot be written. What was done is in the folder.
+        A plugin failed, or a file cannot be written. The folder keeps what was done.
     InterruptedStudy
         The user interrupted the study; the exception carries the results of what was done.
 
@@ -97,11 +94,11 @@ def compare(
     >>> slopes["jittered"] < -1.3 < slopes["random"] < -0.8
     True
     """
-    subjects = Subjects()
-    request = _request(subjects, samplers, scenes, spp, trials, size, seed)
+    resources = Resources()
+    request = _request(resources, samplers, scenes, spp, trials, size, seed)
     options = ExecutionOptions(threads, processes, dask, times, budget, cost, target, fit)
     folder = None if output is None else Path(output)
-    with Study(request, options, subjects, folder, resume=resume) as study:
+    with Study(request, options, resources, folder, resume=resume) as study:
         interrupted = False
         try:
             study.run(progress)
@@ -109,11 +106,12 @@ def compare(
             interrupted = True
         results = study.results()
         if folder is not None:
-            from samplekit._study.outputs import write_outputs
+            from samplekit._report.outputs import write_outputs
 
-            results = write_outputs(
-                results, request, subjects, folder, threads, lambda done, total: progress("writing images", done, total)
-            )
+            def written(done: int, total: int) -> None:
+                progress("writing images", done, total)
+
+            results = write_outputs(results, request, resources, folder, threads, written)
     if interrupted:
         raise InterruptedStudy(results)
     return results
@@ -140,7 +138,7 @@ class InterruptedStudy(KeyboardInterrupt):
 
 
 def _request(
-    subjects: Subjects,
+    resources: Resources,
     samplers: str | Sequence[str],
     scenes: str | Sequence[str],
     spp: int | Sequence[int],
@@ -148,12 +146,16 @@ def _request(
     size: tuple[int, int],
     seed: int,
 ) -> Request:
-    """The request with names as their declarations write them."""
-    sampler_names = [samplers] if isinstance(samplers, str) else list(samplers)
-    scene_names = [scenes] if isinstance(scenes, str) else list(scenes)
+    """Return the request with names as their declarations write them."""
+
+    def sampler_text(text: str) -> str:
+        # Over the unit square the variance itself is studied: a sampler that reuses sets makes each of them afresh.
+        sampler = resources.sampler(text)
+        return (sampler.fresh() if size == UNIT_SQUARE else sampler).text
+
     return checked_request(
-        [subjects.scene(name).text for name in scene_names],
-        [subjects.studied(name, size).text for name in sampler_names],
+        [resources.scene(text).text for text in ([scenes] if isinstance(scenes, str) else scenes)],
+        [sampler_text(text) for text in ([samplers] if isinstance(samplers, str) else samplers)],
         [spp] if isinstance(spp, int) else list(spp),
         trials,
         size,

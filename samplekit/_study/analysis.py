@@ -1,0 +1,206 @@
+"""The rows of the results and the fits through them, from what the store holds of each combination."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from samplekit._study.errors import errors_of, influence, ratio_of
+from samplekit._study.fit import fit_line, theoretical_exponent
+from samplekit._study.results import Fit, Interval, LeftOut, Row, Seconds, Spread, Times
+from samplekit._study.trials import TRIALS
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from numpy.typing import NDArray
+
+    from samplekit._bases.reference import Reference
+    from samplekit._study.combinations import Combination
+    from samplekit._study.request import Request
+    from samplekit._study.resources import Resources
+    from samplekit._study.store import Store
+
+    Array = NDArray[np.float64]
+
+_TRUSTED = 10.0
+"""An rmse tells something about the sampler only if it is this many times the reference's own error."""
+_ROUNDING = 64 * 2.0**-53
+"""Relative error that rounding leaves in a mean at most, in practice."""
+
+
+class Analysis:
+    """Rows and fits of a study.
+
+    Parameters
+    ----------
+    request, combinations
+        What was asked for, and the rows that there can be.
+    store, resources
+        The sums and times that were found; the scenes and references.
+    machine
+        The kind of machine whose times are used.
+    cost
+        Extra cost per sample, in nanoseconds.
+    fitted
+        First and last count that fits use; None: all counts.
+
+    Attributes
+    ----------
+    combinations
+        Those that have trials, and so a row.
+    left_out
+        Those without any trial.
+    complete
+        Whether all trials were made.
+    """
+
+    def __init__(
+        self,
+        request: Request,
+        combinations: Sequence[Combination],
+        store: Store,
+        resources: Resources,
+        machine: str,
+        cost: float,
+        fitted: tuple[int, int] | None,
+    ) -> None:
+        self._request = request
+        self._resources = resources
+        self._store = store
+        self._machine = machine
+        self._cost = cost
+        self._fitted = fitted or (1, max(combination.count for combination in combinations))
+        self._sums = {combination: store.sums(combination) for combination in combinations}
+        self._done = {each: sum(last - first for first, last in store.ranges(each)) for each in combinations}
+        self.combinations = [each for each in combinations if len(self._sums[each])]
+        self.left_out = [
+            LeftOut(*each.pair, each.count, "interrupted before its first trial was done")
+            for each in combinations
+            if not len(self._sums[each])
+        ]
+        self.complete = all(self._done[each] == each.trials for each in combinations)
+
+    def rows(self) -> list[Row]:
+        """Return a row for each combination that has trials."""
+        return [self._row(combination) for combination in self.combinations]
+
+    def fits(self, rows: Sequence[Row]) -> list[Fit]:
+        """Return a fit for each scene and sampler with at least two usable rows.
+
+        Parameters
+        ----------
+        rows
+            From :meth:`rows`.
+        """
+        fits = []
+        for pair in dict.fromkeys(combination.pair for combination in self.combinations):
+            all_rows = zip(self.combinations, rows, strict=True)
+            own = [(self._sums[each], row) for each, row in all_rows if each.pair == pair]
+            used = [(sums, row) for sums, row in own if row.fitted]
+            influences = [influence(sums) if np.count_nonzero(sums[:, TRIALS]) > 1 else None for sums, _ in used]
+            counts = [row.count for _, row in used]
+            line = fit_line(counts, [row.mse.estimate or 0.0 for _, row in used], influences)
+            if line is not None:
+                case, theory = theoretical_exponent(*pair)
+                fit = Fit(
+                    *pair,
+                    **vars(line),
+                    first=counts[0],
+                    last=counts[-1],
+                    counts=counts,
+                    left_out={row.count: row.left_out for _, row in own if not row.fitted},
+                    case=case,
+                    theory=theory,
+                )
+                fits.append(fit)
+        return fits
+
+    def _row(self, combination: Combination) -> Row:
+        errors = errors_of(self._sums[combination], one_pixel=self._request.one_pixel)
+        reference = self._resources.reference(combination.scene, self._request.size)
+        samples = self._samples(combination)
+        times = self._times(combination)
+        time = None if times is None else times.total.cpu.median + self._cost * 1e-9 * samples
+        left_out = self._why_left_out(combination, errors.mse.estimate, reference)
+        notes = list(combination.notes)
+        if self._done[combination] < combination.trials:
+            notes.append(f"interrupted: {self._done[combination]} of {combination.trials} trials")
+        if errors.mse.estimate == 0.0:
+            notes.append("exact: every trial gave the reference to the last bit")
+        elif left_out and self._fitted[0] <= combination.count <= self._fitted[1]:
+            notes.append(left_out)
+        if errors.invalid_pixels:
+            notes.append(f"{errors.invalid_pixels} pixels of all trials were not finite and are left out")
+        return Row(
+            scene=combination.scene,
+            sampler=combination.sampler,
+            count=combination.count,
+            asked=list(combination.asked),
+            replaced=combination.replaced,
+            dims=combination.dims,
+            samples=samples,
+            **vars(errors),
+            efficiency=_efficiency(errors.mse, time),
+            ratio=self._ratio(combination),
+            reference_error=reference.error,
+            reference_kind=reference.kind,
+            times=times,
+            time=time,
+            fitted=not left_out,
+            left_out=left_out,
+            notes=notes,
+            pictures=None,
+        )
+
+    def _samples(self, combination: Combination) -> int:
+        """Return the number of samples of one trial."""
+        if self._request.one_pixel:
+            return combination.count
+        pixels = self._resources.pixels(combination.scene, self._request.size)
+        return int(pixels.sampled.size) * combination.count
+
+    def _why_left_out(self, combination: Combination, mse: float | None, reference: Reference) -> str:
+        """Return why the fit does not use a row; empty if it does."""
+        if mse is None:
+            return "no finite error"
+        first, last = self._fitted
+        if not first <= combination.count <= last:
+            return f"outside of the range of the fit, {first} to {last}"
+        if mse == 0.0:
+            return "exact: its logarithm is minus infinity"
+        floor = reference.error + _ROUNDING * float(np.nan_to_num(np.abs(reference.image)).max(initial=0.0))
+        if math.sqrt(mse) <= _TRUSTED * floor:
+            rmse = f"{math.sqrt(mse):.1g}"
+            return f"its rmse of {rmse} is not above {_TRUSTED:g} times the reference's own error of {floor:.1g}"
+        return ""
+
+    def _ratio(self, combination: Combination) -> Interval | None:
+        """Return the mean squared error relative to that of the first sampler; None if it has no such row."""
+        first = self._request.samplers[0], combination.scene, combination.count
+        for other in self.combinations:
+            if (other.sampler, other.scene, other.count) == first:
+                return Interval(1.0) if other is combination else ratio_of(self._sums[combination], self._sums[other])
+        return None
+
+    def _times(self, combination: Combination) -> Times | None:
+        laps = self._store.laps(self._machine, combination)
+        if not len(laps):
+            return None
+        points, scene = (Seconds(_spread(laps[:, column]), _spread(laps[:, column + 1])) for column in (0, 2))
+        total = Seconds(_spread(laps[:, 0] + laps[:, 2]), _spread(laps[:, 1] + laps[:, 3]))
+        return Times(points, scene, total, *self._store.setup(self._machine, combination), len(laps))
+
+
+def _spread(seconds: Array) -> Spread:
+    lower, median, upper = (float(value) for value in np.percentile(seconds, [25, 50, 75]))
+    return Spread(median, lower, upper)
+
+
+def _efficiency(mse: Interval, time: float | None) -> Interval | None:
+    if not time or not mse.estimate:
+        return None
+    low, high = (1.0 / (end * time) if end else None for end in (mse.high, mse.low))
+    return Interval(1.0 / (mse.estimate * time), low, high)
