@@ -15,12 +15,11 @@ import time
 
 import numpy as np
 
-from samplekit import Realizations
-from samplekit import ConfiguredSampler
+from samplekit import ConfiguredSampler, Realizations
 from samplekit import sampler as configured_sampler
 from samplekit._registry import registry
-from samplekit.testing._elsewhere import forced_extremes
-from samplekit.testing._subject import Subject
+from samplekit.testing._forced_bits import forced_extremes
+from samplekit.testing._subject import SamplerSubject
 
 COUNTS = (1, 3, 16, 97, 512)
 VALUES_AT_ONCE = 2**19
@@ -83,7 +82,7 @@ def main() -> None:
         start = time.perf_counter()
         drawn, low, high = draw(configured_sampler(text), share)
         nanoseconds = (time.perf_counter() - start) / drawn * 1e9
-        extremes = [extreme.values for extreme in forced_extremes(Subject(text))]
+        extremes = [extreme.values for extreme in forced_extremes(SamplerSubject(text))]
         for values in extremes:
             if not ((values >= 0.0).all() and (values < 1.0).all()):
                 sys.exit(f"{text}, with forced random bits: {values.min()!r} to {values.max()!r}")

@@ -22,6 +22,7 @@ def test_the_commands_are_found():
     assert len(COMMANDS) > 8
 
 
+@pytest.mark.slow
 def test_the_commands_work_one_after_the_other(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     for command in COMMANDS:

@@ -1,9 +1,12 @@
 from ._cases import SamplerConformance as SamplerConformance
 from ._cases import SceneConformance as SceneConformance
+from ._check import check as check
+from ._report import Report as Report
+from ._report import SubjectReport as SubjectReport
 from ._result import CheckFailed as CheckFailed
 from ._result import CounterExample as CounterExample
 from ._result import NotApplicable as NotApplicable
 from ._result import Outcome as Outcome
-from ._result import check as check
+from ._result import conformance_check as conformance_check
 from ._suite import check_sampler as check_sampler
 from ._suite import check_scene as check_scene

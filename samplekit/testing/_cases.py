@@ -6,32 +6,13 @@ Nothing here imports a test framework: the pytest plugin makes tests of cases.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from samplekit.testing._result import Check
-
-
-class Subjects:
-    """Subjects by recipe, made when first needed and kept: checks share what they have drawn and asked."""
-
-    def __init__(self, *, quick: bool) -> None:
-        self.quick = quick
-        self._made: list[tuple[Any, Any]] = []
-
-    def get(self, kind: str, recipe: Any) -> Any:
-        """The subject of a recipe."""
-        for known, subject in self._made:
-            if known is recipe or known == recipe:
-                return subject
-        from samplekit.testing._scene_subject import SceneSubject
-        from samplekit.testing._subject import Subject
-
-        made = (Subject if kind == "sampler" else SceneSubject)(recipe, quick=self.quick)
-        self._made.append((recipe, made))
-        return made
+    from samplekit.testing._result import Check, Kind
+    from samplekit.testing._subject import Recipe, Subject
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,20 +22,18 @@ class Case:
     Attributes
     ----------
     expected
-        Why the check is declared to fail; empty: it is not.
+        Why the check is declared to fail; empty if it is not.
     """
 
-    subjects: Subjects
-    kind: Literal["sampler", "scene"]
-    recipe: Any
+    subject: Subject
     check: Check
     expected: str = ""
 
     @property
     def id(self) -> str:
         """Its name in a list of tests."""
-        name = self.recipe if isinstance(self.recipe, str) else self.recipe.name
-        return f"{name}-{self.check.name}"
+        recipe = self.subject.recipe
+        return f"{recipe if isinstance(recipe, str) else recipe.name}-{self.check.name}"
 
     def __call__(self) -> None:
         """Run the check.
@@ -66,45 +45,39 @@ class Case:
         NotApplicable
             There is nothing to judge; the message says why.
         """
-        from samplekit.testing._result import NotApplicable
-
-        subject = self.subjects.get(self.kind, self.recipe)
-        reason = self.check.requires(subject.spec)
-        if reason:
-            raise NotApplicable(reason)
-        self.check(subject)
+        self.check(self.subject)
 
 
-def cases_of(kind: Literal["sampler", "scene"], recipe: Any, subjects: Subjects) -> list[Case]:
-    """All checks of one subject.
+def cases_of(recipe: Recipe, kind: Kind, *, quick: bool) -> list[Case]:
+    """Return all checks of one subject; they share what they have drawn.
 
     Raises
     ------
     UsageError
         An unknown name or option, or a declaration that expects the failure of an unknown check.
     """
-    from samplekit.testing._suite import CHECKS, SCENE_CHECKS, expected_failures
+    from samplekit.testing._subject import make_subject
+    from samplekit.testing._suite import SUITES, expected_failures
 
-    checks = CHECKS if kind == "sampler" else SCENE_CHECKS
-    expected = expected_failures(subjects.get(kind, recipe).spec, checks)
-    return [Case(subjects, kind, recipe, check, expected.get(check.name, "")) for check in checks]
+    subject = make_subject(recipe, kind, quick=quick)
+    expected = expected_failures(subject.spec, SUITES[kind])
+    return [Case(subject, check, expected.get(check.name, "")) for check in SUITES[kind]]
 
 
 class _Conformance:
-    kind: ClassVar[Literal["sampler", "scene"]]
+    kind: ClassVar[Kind]
     quick: ClassVar[bool] = False
 
     def specs(self) -> Sequence[Any]:
-        """What is judged: declarations, or names of what is installed."""
+        """Return what is judged: declarations, or names of what is installed."""
         raise NotImplementedError(f"{type(self).__name__} defines no specs")
 
     def cases(self) -> list[Case]:
-        """All checks of all that is judged."""
-        subjects = Subjects(quick=self.quick)
-        return [case for recipe in self.specs() for case in cases_of(self.kind, recipe, subjects)]
+        """Return all checks of all that is judged."""
+        return [case for recipe in self.specs() for case in cases_of(recipe, self.kind, quick=self.quick)]
 
     def test_conformance(self, samplekit_case: Case) -> None:
-        """One check; the pytest plugin gives the cases."""
+        """Run one check; the pytest plugin gives the cases."""
         samplekit_case()
 
 

@@ -1,4 +1,4 @@
-"""Counts and dimensions that a declaration allows, nearest to those that a check would like to judge."""
+"""Counts that a declaration allows, nearest to those that a check would like to judge."""
 
 from __future__ import annotations
 
@@ -12,8 +12,6 @@ if TYPE_CHECKING:
     from samplekit._specs import Counts, SamplerSpec
 
 _LARGEST = 1 << 17
-_MOST_GRID_DIMS = 12
-"""A grid of two cells along each of so many dimensions has 4096 cells."""
 
 
 def allowed_near(
@@ -34,27 +32,6 @@ def _falling(counts: Counts, count: int, dims: int) -> Iterator[int]:
     while below is not None:
         yield below
         below = counts.below(below, dims)
-
-
-def counts_of(
-    spec: SamplerSpec, wanted: tuple[int, ...], dims: int, makes: Callable[[int], bool] = lambda _: True
-) -> list[int]:
-    """Return for each wanted count the nearest that is declared and that the sampler makes: rising, each once."""
-    most = spec.largest_index + 1
-    near = {allowed_near(spec.counts, min(count, most), dims, makes) for count in wanted}
-    return sorted(count for count in near if count is not None and count <= most)
-
-
-def dims_of(spec: SamplerSpec, wanted: int) -> int:
-    """Return the number of dimensions nearest to ``wanted`` that is declared."""
-    least, most = spec.dimensions
-    return max(least, wanted if most is None else min(wanted, most))
-
-
-def most_dims(spec: SamplerSpec, limit: int) -> int:
-    """Return the most dimensions up to ``limit``; of a grid over all dimensions, those with two cells along each."""
-    dims = dims_of(spec, limit)
-    return min(dims, max(spec.dimensions[0], _MOST_GRID_DIMS)) if spec.counts.depends_on_dims else dims
 
 
 def progressive_counts(spec: SamplerSpec, wanted: tuple[int, ...], dims: int) -> list[int]:

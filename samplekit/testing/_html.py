@@ -1,16 +1,17 @@
-"""A report as one page: a table for each subject, and pictures of the sets that break something."""
+"""A report as one page: a table for each subject, and pictures of the sets that break a property."""
 
 from __future__ import annotations
 
 from html import escape
 from typing import TYPE_CHECKING
 
-from samplekit.testing._result import BROKEN, STATUSES
-from samplekit.testing._statistics import family_rate
+from samplekit.testing._report import rate_line
+from samplekit.testing._result import BROKEN
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
+    from samplekit.testing._report import SubjectReport
     from samplekit.testing._result import CounterExample, Outcome
 
 _STYLE = """
@@ -27,32 +28,20 @@ code { background: #f3f4f6; padding: .1rem .3rem; }
 """
 
 
-def page(runs: Mapping[str, Sequence[Outcome]]) -> str:
-    """The page, as text: subject to outcomes."""
-    summary = "; ".join(f"{escape(name)}: {counted(outcomes)}" for name, outcomes in runs.items())
+def page(subjects: Sequence[SubjectReport]) -> str:
+    """Return the page."""
+    summary = "; ".join(f"{escape(subject.name)}: {subject.summary}" for subject in subjects)
     head = (
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>samplekit check</title>'
         f"<style>{_STYLE}</style></head><body>\n<h1>samplekit check</h1>\n<p>{summary}</p>\n"
-        f"<p class=note>{escape(rate_line(len(runs)))}</p>\n"
+        f"<p class=note>{escape(rate_line(len(subjects)))}</p>\n"
     )
     parts = [head]
-    for name, outcomes in runs.items():
-        parts.append(f"<h2>{escape(name)}</h2>\n<table><tr><th>check<th>result<th>why</tr>\n")
-        parts += [_row(outcome) for outcome in outcomes]
+    for subject in subjects:
+        parts.append(f"<h2>{escape(subject.name)}</h2>\n<table><tr><th>check<th>result<th>why</tr>\n")
+        parts += [_row(outcome) for outcome in subject.outcomes]
         parts.append("</table>\n")
     return "".join(parts) + "</body></html>\n"
-
-
-def counted(outcomes: Sequence[Outcome]) -> str:
-    """Numbers of outcomes by status."""
-    numbers = {status: sum(outcome.status == status for outcome in outcomes) for status in STATUSES}
-    return ", ".join(f"{number} {status}" for status, number in numbers.items() if number)
-
-
-def rate_line(subjects: int) -> str:
-    """How often a run like this blames a conforming sampler."""
-    rate = f"{family_rate(subjects):.2g}"
-    return f"statistical checks blame a conforming sampler in this run with probability at most {rate}"
 
 
 def _row(outcome: Outcome) -> str:

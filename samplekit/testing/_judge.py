@@ -1,4 +1,4 @@
-"""Judge sets of points by a promise: a violation becomes a failed check with its counter-example."""
+"""Judge sets of points: equal bit for bit, or by a promise; a fault becomes a failed check with its counter-example."""
 
 from __future__ import annotations
 
@@ -9,22 +9,48 @@ import numpy as np
 from samplekit.testing._result import CheckFailed
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from samplekit._specs import Promise
-    from samplekit.testing._subject import Subject
+    from samplekit.testing._subject import Array, SamplerSubject
 
 
-def judge(
-    subject: Subject,
+def judge_equal(
+    subject: SamplerSubject, expected: Array, found: Array, count: int, when: str, *, seed: int = 0, start: int = 0
+) -> None:
+    """Raise unless two arrays are equal bit for bit; -0.0 differs from 0.0, and NaN equals itself.
+
+    Parameters
+    ----------
+    expected, found
+        float64[R, D, n]: points ``start`` to ``start + n`` of sets of ``count`` points.
+    when
+        How ``found`` was asked for, as the end of a message.
+
+    Raises
+    ------
+    CheckFailed
+        They differ.
+    """
+    different = np.ascontiguousarray(expected).view(np.uint64) != np.ascontiguousarray(found).view(np.uint64)
+    if not different.any():
+        return
+    row, dimension, point = (int(i) for i in np.argwhere(different)[0])
+    raise CheckFailed(
+        f"point {start + point} of {count} is at {float(expected[row, dimension, point])!r} in dimension {dimension},"
+        f" but at {float(found[row, dimension, point])!r} {when};"
+        f" {int(np.count_nonzero(different.any(axis=(1, 2))))} of {len(expected)} sets differ",
+        subject.example(expected, count, seed=seed, row=row, start=start, indices=(point,)),
+    )
+
+
+def judge_promise(
+    subject: SamplerSubject,
     promise: Promise,
-    values: NDArray[np.float64],
+    values: Array,
     count: int,
     *,
     seed: int = 0,
     start: int = 0,
     when: str = "",
-    if_rounded: str = "",
 ) -> None:
     """Raise unless every set keeps the promise.
 
@@ -34,9 +60,6 @@ def judge(
         float64[R, D, n]: points ``start`` to ``start + n`` of sets of ``count`` points.
     when
         Circumstances, as the end of the message.
-    if_rounded
-        What holds of the points once they are moved up by a few units in the last place, if it is worth a try: what
-        breaks the promise is then rounding, and the message says so.
 
     Raises
     ------
@@ -48,23 +71,11 @@ def judge(
         return
     block = f", block of points {start} to {start + values.shape[2]}" if start else ""
     message = f"{found}{block}{when}"
-    if if_rounded:
-        nudged = np.minimum(values + 8 * np.spacing(values), 1.0 - 2.0**-53)
-        if promise.find_violation(nudged.transpose(0, 2, 1)) is None:
-            message += (
-                f"; it is rounding: moved up by 8 units in the last place {if_rounded}:"
-                " add up digits in integers and divide once"
-            )
-    raise CheckFailed(
-        message,
-        subject.example(
-            values,
-            count,
-            seed=seed,
-            row=found.realization,
-            start=start,
-            axes=found.axes,
-            box=found.box,
-            indices=found.points,
-        ),
-    )
+    nudged = np.minimum(values + 8 * np.spacing(values), 1.0 - 2.0**-53)
+    if promise.find_violation(nudged.transpose(0, 2, 1)) is None:
+        message += (
+            "; it is rounding: moved up by 8 units in the last place the points keep the promise:"
+            " add up digits in integers and divide once"
+        )
+    place = {"row": found.realization, "axes": found.axes, "box": found.box, "indices": found.points}
+    raise CheckFailed(message, subject.example(values, count, seed=seed, start=start, **place))  # type: ignore[arg-type]

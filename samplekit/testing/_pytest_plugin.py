@@ -14,7 +14,7 @@ FIXTURE = "samplekit_case"
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Options that name what is judged."""
+    """Add the options that name what is judged."""
     group = parser.getgroup("samplekit", "conformance of samplers and scenes")
     group.addoption(
         "--sampler",
@@ -30,19 +30,20 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Find what is judged: a wrong name is one line, before any test is collected."""
+    """Look up what is judged: a wrong name ends in one line, before any test is collected."""
     samplers, scenes = config.getoption("--sampler"), config.getoption("--scene")
     config.stash[_CASES] = []
     if not samplers and not scenes:
         return
     from samplekit._errors import SamplekitError
-    from samplekit.testing._cases import Subjects, cases_of
+    from samplekit.testing._cases import cases_of
 
-    subjects = Subjects(quick=config.getoption("--samplekit-quick"))
+    quick = config.getoption("--samplekit-quick")
     try:
-        for kind, names in (("sampler", samplers), ("scene", scenes)):
-            for name in dict.fromkeys(names):
-                config.stash[_CASES] += cases_of(kind, name, subjects)  # type: ignore[arg-type]
+        for name in dict.fromkeys(samplers):
+            config.stash[_CASES] += cases_of(name, "sampler", quick=quick)
+        for name in dict.fromkeys(scenes):
+            config.stash[_CASES] += cases_of(name, "scene", quick=quick)
     except SamplekitError as error:
         raise pytest.UsageError(str(error)) from None
 
@@ -67,18 +68,18 @@ def _parameter(case: Any) -> Any:
 
 @pytest.fixture
 def samplekit_case(request: pytest.FixtureRequest) -> Any:
-    """A check of a sampler or scene: calling it passes, fails with a counter-example, or is skipped with a reason."""
+    """Return a check: calling it passes, fails with a counter-example, or is skipped with a reason."""
     case = request.param
 
     def run() -> None:
-        # Lines of samplekit's own code say nothing to the author of a sampler.
+        # Lines of samplekit's own code do not help the author of a sampler.
         __tracebackhide__ = True
         from samplekit.testing._result import CheckFailed, NotApplicable
 
         try:
             case()
         except NotApplicable as nothing:
-            # A check that is declared to fail and has nothing to judge did not fail: strict, as everywhere.
+            # A check that is declared to fail and has nothing to judge did not fail: this is as strict as the command.
             if not case.expected:
                 pytest.skip(str(nothing))
         except CheckFailed as failed:

@@ -1,4 +1,4 @@
-"""What a check says: passed, failed with the smallest counter-example, not applicable and why, expected to fail."""
+"""Results: what a check is, how it says that a property does not hold, and the outcome of one check."""
 
 from __future__ import annotations
 
@@ -6,39 +6,40 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterable
 
     import numpy as np
     from numpy.typing import NDArray
 
+Kind = Literal["sampler", "scene"]
 Status = Literal["passed", "failed", "not applicable", "expected failure", "unexpected pass"]
 STATUSES: tuple[Status, ...] = ("passed", "failed", "not applicable", "expected failure", "unexpected pass")
 BROKEN: tuple[Status, ...] = ("failed", "unexpected pass")
-"""The statuses that make a run fail: a failure that was declared and does not happen is one of them."""
+"""The statuses that make a run fail: a declared failure that does not happen is one of them."""
 
 _POINTS_SHOWN = 4
 
 
 @dataclass(frozen=True, eq=False)
 class CounterExample:
-    """The smallest request that shows a property broken.
+    """The smallest request that shows a broken property.
 
     Attributes
     ----------
     sampler
-        As on the command line, with its options.
+        Text of the sampler as on the command line, with its options.
     count, dims, seed
         The request.
     realization
-        Number of the realisation; for one that is given by a pixel, ``(x, y)``.
+        Number of the realisation; ``(x, y)`` where the realisation is a pixel.
     indices, coordinates
         The points that break the property: their indices in the set, and float64[k, D].
     axes
         The dimensions that matter.
     box
-        Low and high edge along each of ``axes`` of the cell that holds too many points or too few.
+        Low and high edge, along each of ``axes``, of the cell that holds too many points or too few.
     points
-        The whole set, float64[N, D], for a picture; None where it is too large or the failure is not of one set.
+        The whole set, float64[N, D], for a picture; None if it is too large or if the failure is not in one set.
     """
 
     sampler: str
@@ -63,19 +64,12 @@ class CounterExample:
         return text + (f": {'; '.join(shown[:_POINTS_SHOWN])}{more}" if shown else "")
 
     def as_json(self) -> dict[str, Any]:
-        """Plain data; the seed as text, as many JSON readers round integers beyond 2^53."""
-        return {
-            "sampler": self.sampler,
-            "count": self.count,
-            "dims": self.dims,
-            "seed": str(self.seed),
-            "realization": list(self.realization) if isinstance(self.realization, tuple) else self.realization,
-            "indices": list(self.indices),
-            # NaN is no JSON: a coordinate that was never written is told as text.
-            "coordinates": [[x if x == x else "nan" for x in map(float, place)] for place in self.coordinates],
-            "axes": list(self.axes),
-            "box": [list(edges) for edges in self.box],
-        }
+        """Return plain data, without the points."""
+        data = {name: value for name, value in vars(self).items() if name != "points"}
+        # Many readers of JSON round integers beyond 2^53, and JSON has no NaN, which a coordinate never written is.
+        data["seed"] = str(self.seed)
+        data["coordinates"] = [[x if x == x else "nan" for x in map(float, place)] for place in self.coordinates]
+        return data
 
 
 class CheckFailed(Exception):  # noqa: N818 - it is a verdict, not an error of the program
@@ -96,12 +90,12 @@ class CheckFailed(Exception):  # noqa: N818 - it is a verdict, not an error of t
 
 
 class NotApplicable(Exception):  # noqa: N818
-    """The check finds, while running, that it has nothing to judge; says why."""
+    """A check has nothing to judge; the message says why."""
 
 
 @dataclass(frozen=True)
 class Check:
-    """A check: a plain function with what it requires of a declaration.
+    """A check: a plain function, and what it requires of a declaration.
 
     Attributes
     ----------
@@ -110,25 +104,25 @@ class Check:
     number
         Its place in the suite, from 1.
     kind
-        What it judges.
+        What it judges: ``"sampler"`` or ``"scene"``.
     summary, tolerance
         One line each, for reports.
     requires
-        Gives the reason why the check does not apply to a declaration, or nothing.
+        Returns the reason why the check does not apply to a declaration; empty if it does apply.
     function
         Called with the subject; raises CheckFailed.
     """
 
     name: str
     number: int
-    kind: Literal["sampler", "scene"]
+    kind: Kind
     summary: str
     tolerance: str
     requires: Callable[[Any], str]
     function: Callable[[Any], None]
 
     def __call__(self, subject: Any) -> None:
-        """Judge the subject.
+        """Judge a subject.
 
         Raises
         ------
@@ -137,22 +131,27 @@ class Check:
         NotApplicable
             There is nothing to judge.
         """
+        reason = self.requires(subject.spec)
+        if reason:
+            raise NotApplicable(reason)
         self.function(subject)
 
 
-def _applies_to_all(_: Any) -> str:
-    return ""
-
-
-def check(
+def conformance_check(
     name: str,
     number: int,
     *,
     tolerance: str = "exact",
-    kind: Literal["sampler", "scene"] = "sampler",
-    requires: Callable[[Any], str] = _applies_to_all,
+    kind: Kind = "sampler",
+    requires: Callable[[Any], str] = lambda _: "",
 ) -> Callable[[Callable[[Any], None]], Check]:
-    """Make a function a check; the first line of its docstring is its summary."""
+    """Turn a function into a check; the first line of its docstring is the summary.
+
+    Parameters
+    ----------
+    name, number, tolerance, kind, requires
+        The attributes of the :class:`Check`.
+    """
 
     def decorate(function: Callable[[Any], None]) -> Check:
         # Python drops docstrings if it is asked to (-OO).
@@ -164,7 +163,21 @@ def check(
 
 @dataclass
 class Outcome:
-    """What one check said of one subject."""
+    """What one check found about one subject.
+
+    Attributes
+    ----------
+    subject, check
+        Text of the sampler or scene, and name of the check.
+    status
+        One of ``"passed"``, ``"failed"``, ``"not applicable"``, ``"expected failure"``, ``"unexpected pass"``.
+    message, example
+        Why it failed or does not apply, and the smallest request that shows it.
+    hints, notes
+        Advice that is no failure, and remarks on how the subject was judged.
+    seconds, points
+        Time that the check took, and points that it drew.
+    """
 
     subject: str
     check: str
@@ -177,7 +190,7 @@ class Outcome:
     points: int = 0
 
     def as_json(self) -> dict[str, Any]:
-        """Plain data."""
+        """Return plain data."""
         return {
             "subject": self.subject,
             "check": self.check,
@@ -191,6 +204,6 @@ class Outcome:
         }
 
 
-def broken(outcomes: Sequence[Outcome]) -> list[Outcome]:
-    """The outcomes that make a run fail."""
+def broken(outcomes: Iterable[Outcome]) -> list[Outcome]:
+    """Return the outcomes that make a run fail."""
     return [outcome for outcome in outcomes if outcome.status in BROKEN]

@@ -1,12 +1,12 @@
-"""How often a statistical check is wrong, and what it can see: the thresholds of the five checks that are statistical.
+"""Thresholds of the five statistical checks: how often a check is wrong, and what it can see.
 
 Seeds are fixed, so a verdict is the same in every run: a false alarm is a property of a sampler, not of a run. The
 probability that a conforming sampler has one is at most ``SAMPLER_RATE``; a run over at most 64 samplers has a
 false alarm with probability at most ``FAMILY_RATE``. Within a sampler the rate is shared equally by the checks, and
 within a check by its tests (Bonferroni), however these depend on each other.
 
-What each check sees: the smallest fault that it finds nine times in ten, of points as noisy as random ones; less noisy
-samplers are seen through further, and slow ones, which are judged on smaller samples, less far.
+The table has the smallest fault that each check finds nine times in ten, for points as noisy as random ones. In less
+noisy samplers the checks find smaller faults; in slow ones, which are judged on smaller samples, only larger ones.
 
 =================  ===================================================  =====================
 check              a run                                                a quick run
@@ -31,24 +31,24 @@ CHECK_RATE = SAMPLER_RATE / STATISTICAL_CHECKS
 
 
 def family_rate(samplers: int) -> float:
-    """The false-alarm rate of a run over this many samplers."""
+    """Return the highest false-alarm rate of a run over this many samplers."""
     return min(1.0, samplers * SAMPLER_RATE)
 
 
 def normal_threshold(tests: int) -> float:
-    """How many standard deviations each of ``tests`` two-sided tests allows."""
+    """Return how many standard deviations each of ``tests`` two-sided tests allows."""
     return -NormalDist().inv_cdf(CHECK_RATE / tests / 2.0)
 
 
 def student_threshold(tests: int, freedom: int) -> float:
-    """As ``normal_threshold``, where the standard deviation is estimated with ``freedom`` degrees."""
+    """Return the same as ``normal_threshold`` for a standard deviation estimated with ``freedom`` degrees."""
     from scipy.special import stdtrit
 
     return float(-stdtrit(freedom, CHECK_RATE / tests / 2.0))
 
 
 def chi_square_threshold(tests: int, freedom: int) -> float:
-    """The value that a chi-square of ``freedom`` degrees exceeds in one of ``tests`` tests."""
+    """Return the value that a chi-square of ``freedom`` degrees exceeds with the rate of one of ``tests`` tests."""
     from scipy.special import chdtri
 
     return float(chdtri(freedom, CHECK_RATE / tests))

@@ -1,33 +1,40 @@
-"""The subject of a run: a sampler whose points are drawn through one door, counted, and never trusted."""
+"""The subject of the checks: a sampler or a scene. It counts what is drawn, and trusts nothing that it is given."""
 
 from __future__ import annotations
 
-import contextlib
+import math
 import time
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit._bases.realizations import Realizations
 from samplekit._configured.sampler import sampler as configured_sampler
+from samplekit._configured.scene import scene as configured_scene
 from samplekit._errors import InvalidPointsError, SamplekitError, UsageError
-from samplekit._specs import SamplerSpec
-from samplekit.testing._declared import counts_of, dims_of, most_dims
+from samplekit._specs import SamplerSpec, SceneSpec
+from samplekit.testing._declared import allowed_near
+from samplekit.testing._elsewhere import points_elsewhere
+from samplekit.testing._forced_bits import Extreme, forced_extremes
 from samplekit.testing._result import CheckFailed, CounterExample
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from numpy.typing import NDArray
-
     from samplekit._configured.sampler import ConfiguredSampler
+    from samplekit._configured.scene import ConfiguredScene
+    from samplekit.testing._result import Kind
 
-Recipe = str | SamplerSpec
-"""What a user writes (``"sobol+owen"``), or the declaration of a sampler that is not installed."""
+Array = NDArray[np.float64]
+Recipe = str | SamplerSpec | SceneSpec
+"""What a user writes (``"sobol+owen"``), or the declaration of a sampler or scene that is not installed."""
 
 _LARGEST_KEPT = 1 << 14
 _SMALL = 4096
+_MOST_GRID_DIMS = 12
+"""A grid of two cells along each of this many dimensions has 4096 cells."""
 _LARGEST_COUNTS = ((0.02, 1 << 17), (0.2, 1 << 12), (1.0, 1 << 10))
 """Seconds that 256 points take at most, and the largest set that is then judged; work may grow as the square."""
 _SECONDS_A_REQUEST = 1.5
@@ -35,41 +42,94 @@ _SECONDS_A_QUICK_REQUEST = 0.15
 
 
 class Subject:
-    """A sampler under judgement.
+    """What all subjects have.
 
     Parameters
     ----------
     recipe
-        What makes the sampler, here and in other processes: what a user writes, or the declaration of one that is not
-        installed.
+        What makes the subject, here and in other processes.
+    configured
+        The sampler or scene.
     quick
         Smaller samples, and no other processes.
+
+    Attributes
+    ----------
+    drawn
+        Number of points drawn so far.
+    hints, notes
+        Of the check that runs: advice that is no failure, and remarks on how the subject was judged.
     """
 
-    def __init__(self, recipe: Recipe, *, quick: bool = False) -> None:
+    def __init__(self, recipe: Recipe, configured: ConfiguredSampler | ConfiguredScene, *, quick: bool) -> None:
         self.recipe = recipe
-        self.sampler = sampler = configured_sampler(recipe)
-        self.spec = sampler.spec
-        self.text = sampler.text
+        self.spec = configured.spec
+        self.text = configured.text
+        self.plugin = configured.plugin
         self.quick = quick
         self.drawn = 0
         self.hints: list[str] = []
         self.notes: list[str] = []
+
+    def note(self, text: str) -> None:
+        """Add a remark on how the subject was judged, once."""
+        if text not in self.notes:
+            self.notes.append(text)
+
+
+class SceneSubject(Subject):
+    """A scene that is judged; see :class:`Subject`."""
+
+    spec: SceneSpec
+
+    def __init__(self, recipe: str | SceneSpec, *, quick: bool = False) -> None:
+        self.scene = configured_scene(recipe)
+        self.dims = self.scene.dims
+        super().__init__(recipe, self.scene, quick=quick)
+
+    def values(self, u: Array, box: Array) -> Array:
+        """Return the integrand float64[M] at samples ``u`` float64[D, M] of the pixel ``box``.
+
+        The box is left, width, top, height. Each sample is a pixel of one sample: a sum of one value is that value.
+        """
+        self.drawn += u.shape[1]
+        tile = np.ascontiguousarray(u.T[:, :, None])
+        out = np.full(u.shape[1], np.nan)
+        self.scene.sums(tile, np.repeat(box[:, None], u.shape[1], axis=1), out)
+        return out
+
+    def mean(self, u: Array, box: Array) -> float:
+        """Return the mean over samples; the sum is rounded once."""
+        return math.fsum(self.values(u, box).tolist()) / int(u.shape[1])
+
+
+class SamplerSubject(Subject):
+    """A sampler that is judged; see :class:`Subject`."""
+
+    spec: SamplerSpec
+
+    def __init__(self, recipe: str | SamplerSpec, *, quick: bool = False) -> None:
+        self.sampler = configured_sampler(recipe)
+        super().__init__(recipe, self.sampler, quick=quick)
         self._prepared: set[tuple[int, int]] = set()
 
-    def dims(self, wanted: int) -> int:
-        """The number of dimensions nearest to ``wanted`` that is declared."""
-        return dims_of(self.spec, wanted)
+    def hint(self, text: str) -> None:
+        """Add advice that is no failure."""
+        self.hints.append(text)
 
-    def counts(self, *wanted: int, dims: int) -> list[int]:
-        """The declared counts nearest to those wanted, without those that would take a slow sampler too long."""
-        affordable = tuple(count for count in wanted if count <= 256 or count <= self.largest_count)
-        return counts_of(self.spec, affordable or (256,), dims, lambda count: self.makes(count, dims))
+    def dims(self, wanted: int) -> int:
+        """Return the declared number of dimensions nearest to ``wanted``."""
+        least, most = self.spec.dimensions
+        return max(least, wanted if most is None else min(wanted, most))
+
+    def allows(self, count: int, dims: int) -> bool:
+        """Tell whether sets of ``count`` points are declared."""
+        return count <= self.spec.largest_index + 1 and self.spec.counts.allows(count, dims)
 
     def makes(self, count: int, dims: int) -> bool:
-        """Whether the sampler accepts a request: an orthogonal array of s^2 points has at most s + 1 dimensions, say.
+        """Tell whether the sampler accepts a request: an orthogonal array of s^2 points has at most s + 1 dimensions.
 
-        What it may not refuse is judged by the check of its limits.
+        The check of limits judges what it may not refuse.
         """
         try:
             self.sampler.check(count, dims)
@@ -77,11 +137,28 @@ class Subject:
             return False
         return True
 
+    def counts(self, *wanted: int, dims: int) -> list[int]:
+        """Return the declared count nearest to each wanted one, except those that take a slow sampler too long."""
+        affordable = [count for count in wanted if count <= 256 or count <= self.largest_count]
+        return self.nearest_counts(affordable or [256], dims)
+
+    def nearest_counts(self, wanted: list[int], dims: int) -> list[int]:
+        """Return for each wanted count the nearest that is declared and that the sampler makes: rising, each once."""
+        most = self.spec.largest_index + 1
+        near = {
+            allowed_near(self.spec.counts, min(count, most), dims, lambda count: self.makes(count, dims))
+            for count in wanted
+        }
+        return sorted(count for count in near if count is not None and count <= most)
+
     def most_dims(self, limit: int) -> int:
-        """The largest number of dimensions up to ``limit`` in which it makes some count up to 4096."""
-        high = most_dims(self.spec, limit)
+        """Return the largest number of dimensions up to ``limit`` in which it makes some count up to 4096.
+
+        Of a grid over all dimensions: those in which the grid has two cells along each.
+        """
+        high = self.dims(limit)
         if self.spec.counts.depends_on_dims:
-            return high
+            return min(high, max(self.spec.dimensions[0], _MOST_GRID_DIMS))
         counts = [count for count in range(_SMALL, 0, -1) if self.spec.counts.allows(count, high)]
         low = min(self.dims(1), high)
         while low < high:
@@ -94,10 +171,10 @@ class Subject:
 
     @cached_property
     def largest_count(self) -> int:
-        """The size of set up to which this sampler is judged: less for one that takes long for 256 points."""
+        """The largest set that is judged: smaller for a sampler that takes long for 256 points."""
         dims = self.dims(2)
-        small, count = (counts_of(self.spec, (wanted,), dims)[0] for wanted in (16, 256))
-        # What is compiled is compiled for the small set; what is prepared for each count is counted in part.
+        small, count = (self.nearest_counts([wanted], dims)[0] for wanted in (16, 256))
+        # Kernels are compiled for the small set; what is prepared for each count is counted in part.
         self.sets(small, dims, 1)
         began = time.process_time()
         self.sets(count, dims, 1)
@@ -118,58 +195,70 @@ class Subject:
         points: int | None = None,
         *,
         sampler: ConfiguredSampler | None = None,
-        unwritten_ok: bool = False,
-    ) -> NDArray[np.float64]:
-        """Points start to start + points of each set, float64[R, D, n], as the sampler wrote them.
+    ) -> Array:
+        """Return points start to start + points of each set, float64[R, D, n], as the sampler wrote them.
 
         Raises
         ------
         CheckFailed
             The sampler raised, or left values unwritten.
         """
-        source = sampler or self.sampler
-        number = count - start if points is None else points
         if sampler is None and (count, dims) not in self._prepared:
-            source.prepare(count, dims)
+            self.sampler.prepare(count, dims)
             self._prepared.add((count, dims))
-        out = np.full((len(realizations), dims, number), np.nan)
-        try:
-            source.fill(out, realizations, count, start)
-        except UsageError as error:
-            raise CheckFailed(f"refuses what it declares: {error}", self.request(count, dims, realizations)) from None
-        except InvalidPointsError as error:
-            # Rendering refuses values outside [0, 1); here they are evidence.
-            if not np.isfinite(out).all():
-                raise CheckFailed(str(error), self.request(count, dims, realizations)) from None
-        except SamplekitError as error:
-            raise CheckFailed(str(error), self.request(count, dims, realizations)) from None
-        self.drawn += len(realizations) * number
-        if not unwritten_ok and np.isnan(out).any():
-            row, _, point = (int(i) for i in np.argwhere(np.isnan(out))[0])
-            raise CheckFailed(
-                "left a value unwritten, or wrote NaN",
-                self.example(out, count, seed=realizations.seed, row=row, indices=(point,), start=start),
-            )
+        out = np.full((len(realizations), dims, count - start if points is None else points), np.nan)
+        self.write(out, realizations, count, start, sampler or self.sampler)
         return out
 
-    def sets(
-        self, count: int, dims: int, realizations: int = 1, *, seed: int = 0, first: int = 0
-    ) -> NDArray[np.float64]:
-        """Whole sets float64[R, D, N] of the realisations first to first + R."""
+    def write(self, out: Array, realizations: Realizations, count: int, start: int, sampler: ConfiguredSampler) -> None:
+        """Have a sampler write the points from ``start`` on into ``out`` float64[R, D, n].
+
+        Raises
+        ------
+        CheckFailed
+            The sampler raised, or left values unwritten.
+        """
+        try:
+            sampler.fill(out, realizations, count, start)
+        except InvalidPointsError:
+            # Rendering refuses values outside [0, 1); here they are evidence.
+            pass
+        except SamplekitError as error:
+            refusal = "refuses what it declares: " if isinstance(error, UsageError) else ""
+            example = self.request(count, out.shape[1], realizations.seed, int(realizations.x[0]))
+            raise CheckFailed(f"{refusal}{error}", example) from None
+        self.drawn += out.shape[0] * out.shape[2]
+        wrong = ~np.isfinite(out)
+        if wrong.any():
+            row, _, point = (int(i) for i in np.argwhere(wrong)[0])
+            raise CheckFailed(
+                f"{int(np.count_nonzero(wrong))} of {out.size} values are not written, or not finite",
+                self.example(out, count, seed=realizations.seed, row=row, indices=(point,), start=start),
+            )
+
+    def sets(self, count: int, dims: int, realizations: int = 1, *, seed: int = 0, first: int = 0) -> Array:
+        """Return whole sets float64[R, D, N] of the realisations first to first + R."""
         return self.fill(Realizations.of_trials(first, first + realizations, seed), count, dims)
 
-    def independent(self, first: int, stop: int, seed: int = 0) -> Realizations:
-        """Realisations that know nothing of each other: pixels of different blocks, where pixels share a sequence."""
+    def independent(self, first: int, stop: int) -> Realizations:
+        """Return realisations that are independent: pixels of different blocks, where pixels share a sequence."""
         x = np.arange(first, stop, dtype=np.int64) * (self.spec.screen_block or 1)
-        return Realizations.of_pixels(x, np.zeros_like(x), seed)
+        return Realizations.of_pixels(x, np.zeros_like(x), 0)
 
-    def request(self, count: int, dims: int, realizations: Realizations) -> CounterExample:
-        """A counter-example that names the request alone."""
-        return CounterExample(self.text, count, dims, realizations.seed, int(realizations.x[0]))
+    def independent_sets(self, realizations: int, count: int, dims: int, batch: int) -> Iterator[Array]:
+        """Yield independent sets, float64[at most ``batch``, D, N] at a time."""
+        for first in range(0, realizations, batch):
+            yield self.fill(self.independent(first, min(first + batch, realizations)), count, dims)
+
+    def request(
+        self, count: int, dims: int, seed: int = 0, realization: int | tuple[int, int] = 0, **details: Any
+    ) -> CounterExample:
+        """Return a counter-example that names a request, and what else is known."""
+        return CounterExample(self.text, count, dims, seed, realization, **details)
 
     def example(
         self,
-        values: NDArray[np.float64],
+        values: Array,
         count: int,
         *,
         seed: int = 0,
@@ -180,33 +269,33 @@ class Subject:
         axes: tuple[int, ...] = (),
         box: tuple[tuple[float, float], ...] = (),
     ) -> CounterExample:
-        """A counter-example in row ``row`` of ``values`` float64[R, D, n]; ``indices`` count from ``start``."""
+        """Return a counter-example in row ``row`` of ``values`` float64[R, D, n].
+
+        ``first`` is the realisation of row 0; ``indices`` count from point ``start`` of the set.
+        """
         points = values[row].T
-        places = tuple(tuple(float(x) for x in points[i, list(axes) or slice(None)][:8]) for i in indices)
-        kept = points.copy() if points.size <= _LARGEST_KEPT else None
-        return CounterExample(
-            self.text,
+        return self.request(
             count,
             int(values.shape[1]),
             seed,
             first + row,
-            tuple(start + i for i in indices),
-            places,
-            axes,
-            box,
-            kept,
+            indices=tuple(start + i for i in indices),
+            coordinates=tuple(tuple(float(x) for x in points[i, list(axes) or slice(None)][:8]) for i in indices),
+            axes=axes,
+            box=box,
+            points=points.copy() if points.size <= _LARGEST_KEPT else None,
         )
 
     def affordable(self, wanted: int, count: int, dims: int, least: int = 64) -> int:
-        """``wanted`` realisations, or a power of four fewer where the sampler is slow; says so in a note.
+        """Return ``wanted`` realisations, or a power of four fewer where the sampler is slow; a note says so.
 
-        The ladder keeps results comparable: two machines differ only where one is four times slower. Time is the
-        processor's, so that a busy machine judges as an idle one does.
+        The ladder keeps results comparable: two machines differ only where one is four times slower. The time is that
+        of the processor, so that a busy machine judges as an idle one does.
         """
-        self.fill(Realizations.of_trials(0, 1, 0), count, dims)
+        self.sets(count, dims)
         seconds = self._seconds_a_set(8, count, dims)
         if seconds < 1e-3:
-            # So few sets measure what a call costs, not a set.
+            # So few sets measure what a call costs, not what a set costs.
             seconds = self._seconds_a_set(256, count, dims)
         budget = _SECONDS_A_QUICK_REQUEST if self.quick else _SECONDS_A_REQUEST
         realizations = wanted
@@ -218,25 +307,26 @@ class Subject:
 
     def _seconds_a_set(self, sets: int, count: int, dims: int) -> float:
         began = time.process_time()
-        self.fill(Realizations.of_trials(0, sets, 0), count, dims)
+        self.sets(count, dims, sets)
         return (time.process_time() - began) / sets
 
-    def note(self, text: str) -> None:
-        """What a reader should know of how the judgement was made."""
-        if text not in self.notes:
-            self.notes.append(text)
+    @cached_property
+    def extremes(self) -> list[Extreme]:
+        """Points made with all random bits ones, and zeros; none in a quick run. See :func:`forced_extremes`."""
+        return [] if self.quick else forced_extremes(self)
 
-    def hint(self, text: str) -> None:
-        """Advice that is no failure."""
-        self.hints.append(text)
+    @cached_property
+    def elsewhere(self) -> dict[str, Array | str]:
+        """Points made in another process; see :func:`points_elsewhere`."""
+        return points_elsewhere(self)
 
 
-@contextlib.contextmanager
-def raising_is_failing(what: str) -> Iterator[None]:
-    """Turn any exception inside into a failed check, with its kind and text."""
-    try:
-        yield
-    except CheckFailed:
-        raise
-    except Exception as error:
-        raise CheckFailed(f"{what}: {type(error).__name__}: {' '.join(str(error).split())}") from error
+def make_subject(recipe: Recipe, kind: Kind, *, quick: bool = False) -> SamplerSubject | SceneSubject:
+    """Return the subject of a recipe.
+
+    Raises
+    ------
+    UsageError
+        An unknown name or option.
+    """
+    return (SamplerSubject if kind == "sampler" else SceneSubject)(recipe, quick=quick)  # type: ignore[arg-type]

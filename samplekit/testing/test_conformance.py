@@ -4,5 +4,5 @@ from collections.abc import Callable
 
 
 def test_conformance(samplekit_case: Callable[[], None]) -> None:
-    """One check of what the command names."""
+    """Run one check of what the command names."""
     samplekit_case()

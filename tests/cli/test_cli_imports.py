@@ -7,6 +7,8 @@ import sys
 
 import pytest
 
+pytestmark = pytest.mark.slow
+
 HEAVY = ["numpy", "scipy", "numba", "OpenImageIO", "skimage", "psutil", "matplotlib"]
 
 DRIVER = """

@@ -39,6 +39,7 @@ def test_a_study_leaves_them_out_and_says_so(command):
     assert "not finite" in done.err
 
 
+@pytest.mark.slow
 def test_a_prediction_is_refused(command):
     done = command("predict", *INFINITE, "--count", "16", "--json")
     assert done.status == 1

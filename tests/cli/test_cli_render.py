@@ -493,6 +493,7 @@ def test_an_interrupt_leaves_nothing_behind(tmp_path, more):
     assert names(tmp_path) == []
 
 
+@pytest.mark.slow
 def test_kernels_are_announced_on_standard_error_when_they_are_compiled(tmp_path):
     done = subprocess.run(
         [sys.executable, "-m", "samplekit", "render", *SMALL, "--scene", "bilinear", "--no-error", "--json"],

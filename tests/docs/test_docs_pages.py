@@ -19,6 +19,7 @@ def blocks(page: str, language: str) -> list[str]:
     return re.findall(rf"```{language}\n(.*?)```", (ROOT / page).read_text(encoding="utf-8"), re.DOTALL)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("guide", GUIDES)
 def test_commands_of_a_page_work_one_after_the_other(guide, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
@@ -28,6 +29,7 @@ def test_commands_of_a_page_work_one_after_the_other(guide, tmp_path, monkeypatc
         assert run(shlex.split(command, comments=True)[1:]) == 0, (command, capsys.readouterr().err)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("guide", GUIDES)
 def test_python_of_a_page_works(guide, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)

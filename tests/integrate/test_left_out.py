@@ -68,6 +68,7 @@ def imported(arguments, folder):
 ADAPTIVE = {"_pixel_means", "_pieces", "_kept_means"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("command", "ours"),
     [
@@ -96,6 +97,7 @@ def test_each_command_imports_what_it_uses_and_nothing_else(tmp_path, command, o
     assert total < (1000 if verb == "render" else 450)
 
 
+@pytest.mark.slow
 def test_a_sampler_that_cannot_names_those_that_can():
     with pytest.raises(UsageError) as caught:
         samplekit.render("depth-of-field", "n-rooks", 16, size=(4, 4))

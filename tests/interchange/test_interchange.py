@@ -13,6 +13,8 @@ import pytest
 import samplekit
 from samplekit._cli import run
 
+pytestmark = pytest.mark.slow
+
 BESIDE = Path(sys.executable).parent
 
 

@@ -9,6 +9,8 @@ import pytest
 
 from samplekit.kernels import kernel
 
+pytestmark = pytest.mark.slow
+
 MODULE = """
 import numpy as np
 from samplekit.kernels._compile import kernel

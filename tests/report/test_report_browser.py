@@ -16,7 +16,10 @@ from samplekit.files._images.exr import read_parts
 
 playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
 EXECUTABLE = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
-pytestmark = pytest.mark.skipif(EXECUTABLE is None, reason="no chromium is installed: apt-get install chromium")
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(EXECUTABLE is None, reason="no chromium is installed: apt-get install chromium"),
+]
 HOSTILE = "disk:note=\"'></script><script>window.intruder=1</script><img src=x onerror=window.intruder=1>"
 
 

@@ -15,6 +15,8 @@ from samplekit import UsageError
 from samplekit.commands import _notices as notices
 from samplekit.files._pointsets.read import read_points
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def doors(tmp_path_factory):

@@ -14,6 +14,8 @@ import pytest
 import samplekit
 from samplekit._cli import run
 
+pytestmark = pytest.mark.slow
+
 HERE = Path(__file__).parent
 PROGRAM = (str(HERE / "platform_numbers.py"),)
 FLUSH = """

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 from attack import ATTACKS, Bound, attack, ratio
 
+pytestmark = pytest.mark.slow
+
 FOUND = {
     "a power from 1e-134 to 0.04: an exponent of 300 times a rounding": (
         "power:a=0.42879738732413425",

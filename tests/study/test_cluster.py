@@ -10,6 +10,8 @@ import pytest
 import samplekit
 from samplekit._errors import UsageError
 
+pytestmark = pytest.mark.slow
+
 ASK = (["random", "sobol+owen"], ["disk"], [16, 256])
 
 

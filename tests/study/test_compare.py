@@ -29,6 +29,7 @@ def errors_alone(results):
     return [replace(row, times=None, time=None, efficiency=None, pictures=None) for row in results.rows]
 
 
+@pytest.mark.slow
 def test_exponents_of_the_course():
     found = samplekit.compare(
         ["random", "jittered", "poisson-disk"], ["disk", "gaussian"], [4**k for k in range(2, 6)], trials=1500,
@@ -67,6 +68,7 @@ def test_fit_over_a_range():
     assert "range" in fit.left_out[4]
 
 
+@pytest.mark.slow
 def test_results_do_not_depend_on_threads_and_blocks():
     ask = {"trials": 40, "size": (24, 16), "seed": 9, "times": False}
     one = samplekit.compare(["random", "sobol+owen", "z-sobol"], ["disk", "zoneplate:k=60"], [4, 16], threads=1, **ask)
@@ -123,6 +125,7 @@ samplekit.compare(["random", "jittered", "sobol+owen"], ["disk", "gaussian"], [1
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="no kill -9 here")
 def test_killed_study_goes_on_to_the_same_results(tmp_path):
     folder = tmp_path / "study"
@@ -162,6 +165,7 @@ def test_rows_that_somebody_took_out_of_the_file_are_computed_anew(tmp_path):
     assert errors_alone(resumed) == errors_alone(whole)
 
 
+@pytest.mark.slow
 def test_the_unit_square_is_studied_with_fresh_sets():
     found = samplekit.compare(["lloyd:steps=2", "random"], "disk", 16, trials=4, size=(1, 1), times=False)
     assert found.samplers == ["lloyd:steps=2,bank=0", "random"]

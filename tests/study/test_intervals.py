@@ -12,6 +12,8 @@ from samplekit._study.jobs import Job
 from samplekit._study.resources import Resources
 from samplekit._study.trials import COLUMNS, ERROR, PAIRS, PRODUCT, SQUARE, TRIALS, carry_out
 
+pytestmark = pytest.mark.slow
+
 STUDIES, COUNT = 400, 16
 
 

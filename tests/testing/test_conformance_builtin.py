@@ -6,6 +6,8 @@ from samplekit._registry import BUILTIN, registry
 from samplekit.testing import check_sampler
 from samplekit.testing._result import broken
 
+pytestmark = pytest.mark.slow
+
 NAMES = [
     name
     for name, offer in registry().all("sampler").items()

@@ -90,6 +90,7 @@ def test_heavy_declarations_are_found(samplekit_here):
     assert "listing the names of plugin heavy imports numpy" in result.stdout
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "says"),
     [

@@ -11,6 +11,8 @@ import pytest
 
 from samplekit.testing._suite import CHECKS
 
+pytestmark = pytest.mark.slow
+
 PAGE = (Path(__file__).parents[2] / "docs" / "writing-a-sampler.md").read_text(encoding="utf-8")
 
 

@@ -6,6 +6,8 @@ from mutation import caught, run_mutant, table
 
 from samplekit.testing._suite import CHECKS
 
+pytestmark = pytest.mark.slow
+
 SLOW_CHECKS_NEEDED = {"NaiveJitter", "NaiveDraw", "DependsOnTheProcess", "CannotBePickled", "SmallBias", "BlindSpot"}
 """Caught with forced random bits, in another process, or by large samples alone; a quick run catches the others."""
 

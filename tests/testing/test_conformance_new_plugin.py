@@ -10,6 +10,8 @@ import pytest
 
 from samplekit._cli import run
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture
 def plugin(tmp_path, capsys):

@@ -3,6 +3,10 @@
 import subprocess
 import sys
 
+import pytest
+
+pytestmark = pytest.mark.slow
+
 PYTEST = ("pytest", "-q", "-p", "no:cacheprovider", "-rA")
 FEW = "strata or range or light or elementary"
 SUITE = (*PYTEST, "--pyargs", "samplekit.testing", "--samplekit-quick")

@@ -8,7 +8,9 @@ import samplekit
 from samplekit._registry import BUILTIN, registry
 from samplekit.testing import check_scene
 from samplekit.testing._result import broken
-from samplekit.testing._scenes import CHECKS
+from samplekit.testing._suite import SCENE_CHECKS
+
+pytestmark = pytest.mark.slow
 
 NAMES = [name for name, offer in registry().all("scene").items() if offer.plugin.name == BUILTIN]
 
@@ -16,7 +18,7 @@ NAMES = [name for name, offer in registry().all("scene").items() if offer.plugin
 @pytest.mark.parametrize("name", NAMES)
 def test_our_scenes_conform(name):
     # Lattices in four dimensions take seconds: `samplekit check` runs them.
-    only = None if len(samplekit.scene(name).needs) == 1 else [c.name for c in CHECKS if c.name != "reference"]
+    only = None if len(samplekit.scene(name).needs) == 1 else [c.name for c in SCENE_CHECKS if c.name != "reference"]
     outcomes = check_scene(name, quick=True, only=only)
     assert not broken(outcomes), [(each.check, each.message) for each in broken(outcomes)]
 
@@ -30,8 +32,8 @@ def test_a_broken_scene_is_caught(spec, check):
 
 def test_the_quadrature_is_right():
     """Its own error, against integrals in closed form: smooth to 1e-10, a disk within what it says."""
-    from samplekit.testing._scene_subject import SceneSubject
-    from samplekit.testing._scenes import _quadrature
+    from samplekit.testing._checks.scenes import _quadrature
+    from samplekit.testing._subject import SceneSubject
 
     box = np.array([0.25, 0.5, 0.125, 0.25])
     mean, tolerance = _quadrature(SceneSubject("bilinear"), box, 100)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from samplekit.testing import _statistics as statistics
-from samplekit.testing._dimensions import pair_correlations
-from samplekit.testing._uniformity import SIDE, cell_counts, integrands
+from samplekit.testing._checks.dimensions import pair_correlations
+from samplekit.testing._checks.uniformity import SIDE, cell_counts, integrands
 
 
 def test_the_shares_add_up_to_the_family_rate():

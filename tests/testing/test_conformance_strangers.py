@@ -5,6 +5,8 @@ import pytest
 from samplekit.testing import check_sampler
 from samplekit.testing._result import broken
 
+pytestmark = pytest.mark.slow
+
 FOUND = {
     "scipy-sobol": [],
     "scipy-halton": [],

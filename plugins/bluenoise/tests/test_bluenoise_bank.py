@@ -99,6 +99,7 @@ def test_shifts_keep_distances_to_the_last_bit():
     assert out.max() < 1.0
 
 
+@pytest.mark.slow
 def test_coordinates_are_multiples_of_the_last_bit_of_one():
     for x in (0.3, -0.2, 1.7, -1e-20, 5e-324, 1.0 - 2.0**-53, 1.0, -3.0):
         on = on_torus(x)
@@ -184,6 +185,7 @@ def test_threads_that_ask_at_once_make_it_once(cache_folder):
     assert all(np.array_equal(result, results[0]) for result in results)
 
 
+@pytest.mark.slow
 def test_processes_that_ask_at_once_agree(cache_folder):
     script = "import samplekit; print(samplekit.points('ccvt:bank=8', 40, 2, realizations=5).tobytes().hex())"
     processes = [

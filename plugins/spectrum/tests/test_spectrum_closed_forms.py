@@ -56,6 +56,7 @@ CASES = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("sampler", "form", "count"), CASES)
 def test_every_frequency_is_within_its_standard_errors(sampler, form, count):
     """The limit is that of a normal deviate at all frequencies at once with a false alarm of 1e-3: about 5.1.

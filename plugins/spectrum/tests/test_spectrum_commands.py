@@ -63,6 +63,7 @@ def test_the_same_command_gives_the_same_bytes(here, capsys):
     assert contents("1") == contents("2")
 
 
+@pytest.mark.slow
 def test_all_projections_and_three_dimensions(here, capsys):
     status, report, _ = spectrum(
         capsys, "-s", "sobol+owen", "-n", "16", "-r", "4", "-f", "8", "--dims", "4", "--project", "all"

@@ -30,6 +30,7 @@ def test_the_ratio_is_1_within_its_interval(sampler, scene):
     assert 0.85 < row.ratio_low <= 1.0 <= row.ratio_high < 1.15
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("sampler", "count"), [("poisson-disk", 100), ("lloyd", 64), ("ccvt", 64)])
 def test_blue_noise_is_predicted_from_fresh_sets(sampler, count):
     pytest.importorskip("samplekit_bluenoise")
@@ -76,6 +77,7 @@ def test_a_set_is_shifted_several_times_and_no_tile_changes_that():
         np.testing.assert_array_equal(part, whole[first:stop])
 
 
+@pytest.mark.slow
 def test_the_standard_errors_are_those_of_other_seeds():
     """Chi squared of 8 seeds, a false alarm of 1e-3 to either side, with strata of different numbers of sets."""
     exact = 0.09 * math.pi * (1.0 - 0.09 * math.pi) / 16
@@ -153,6 +155,7 @@ def test_a_wrong_prediction_is_told():
     assert row.predicted.tail > 0.1 * row.predicted.variance
 
 
+@pytest.mark.slow
 def test_the_tail_beyond_a_square_is_off_the_axes():
     """The axes are summed further, and are darker: a smaller square with its tail gives what a larger one sums."""
     settings = {"trials": 4, "realizations": 200, "native": False}

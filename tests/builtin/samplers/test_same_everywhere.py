@@ -14,6 +14,8 @@ import pytest
 import samplekit
 from samplekit._builtin import samplekit_randomizers, samplekit_samplers
 
+pytestmark = pytest.mark.slow
+
 REQUESTS = [
     *(
         (spec.name + suffix, 25 if spec.counts == samplekit.PrimePowers(2) else 16)

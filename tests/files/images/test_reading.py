@@ -124,6 +124,7 @@ def test_a_png_with_any_byte_changed(pictures, capfd):
     assert capfd.readouterr() == ("", "")
 
 
+@pytest.mark.slow
 def test_an_exr_with_a_damaged_header_ends_in_one_line_or_can_be_read(pictures, capfd):
     # EXR has no checksum of its header: some changes are other files, none may be a crash or a page of text.
     whole = (pictures / "a.exr").read_bytes()

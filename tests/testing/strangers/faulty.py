@@ -1,6 +1,6 @@
 """A plugin whose samplers hang, crash the interpreter, eat memory, print, or break what they promise."""
 
-from samplekit import LatinStrata, SamplerSpec, hookimpl
+from samplekit import LatinStrata, SamplerSpec, SceneSpec, hookimpl
 
 
 def spec(name, target, **declared):
@@ -19,4 +19,10 @@ def samplekit_samplers():
         spec("known", "Plain", promises=(LatinStrata(),), expected_failures={"strata": "a first try"}),
         spec("pessimist", "Plain", expected_failures={"range": "might reach 1"}),
         spec("misspelt", "Plain", expected_failures={"rnage": "might reach 1"}),
+        spec("twofold", "Plain"),
     ]
+
+
+@hookimpl
+def samplekit_scenes():
+    return [SceneSpec("twofold", "broken_scenes:Ramp", "twofold: for tests")]

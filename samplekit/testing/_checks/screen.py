@@ -1,8 +1,8 @@
 """Blocks of pixels that share one sequence: what takes the place of the independence of pixels.
 
-Two things are asked of a sampler that declares ``screen_block``. Exactly: the sets of a block's pixels together keep
-every net and all strata that are promised of one set, so they are different parts of one good set. Statistically: what
-is left of their errors after averaging over a square of pixels is less than half of what is left of independent errors.
+A sampler that declares ``screen_block`` must do two things. Exactly: the sets of a block's pixels together keep every
+net and all strata that are promised of one set, so they are different parts of one good set. Statistically: the part of
+their errors that is left after averaging over a square of pixels is less than half of what independent errors leave.
 """
 
 from __future__ import annotations
@@ -14,14 +14,14 @@ import numpy as np
 
 from samplekit._bases.realizations import Realizations
 from samplekit._specs import Strata
-from samplekit.testing._judge import judge
-from samplekit.testing._nets import judge_net, promised_nets
-from samplekit.testing._result import CheckFailed, CounterExample
+from samplekit.testing._checks.promises import promised_nets
+from samplekit.testing._judge import judge_promise
+from samplekit.testing._result import CheckFailed
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from samplekit.testing._subject import Subject
+    from samplekit.testing._subject import Array, SamplerSubject
 
 _COUNTS = (1, 4, 16)
 _EXACT_BLOCKS = 4
@@ -38,16 +38,16 @@ _APART = 3
 """Blocks from one that is judged to the next."""
 
 
-def judge_blocks(subject: Subject, side: int) -> None:
+def judge_blocks(subject: SamplerSubject, side: int) -> None:
     """Raise unless the sets of each block together keep what is promised, and their errors cancel."""
     _judge_unions(subject, side)
     _judge_errors(subject, side)
 
 
-def blocks_of(
-    subject: Subject, side: int, blocks: int, count: int, dims: int, seed: int = 0
-) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """Sets of whole blocks float64[K, pixels, D, N], pixels row by row, and the blocks' corners int64[K, 2]."""
+def _block_sets(
+    subject: SamplerSubject, side: int, blocks: int, count: int, dims: int, seed: int = 0
+) -> tuple[Array, NDArray[np.int64]]:
+    """Return sets of whole blocks float64[K, pixels, D, N], pixels row by row, and the blocks' corners int64[K, 2]."""
     y, x = np.mgrid[0:side, 0:side]
     place = np.arange(blocks) * _APART
     corners = np.stack([place, 7 * place + 1], axis=1) * side
@@ -57,7 +57,7 @@ def blocks_of(
     return values.reshape(blocks, side * side, dims, count), corners
 
 
-def _judge_unions(subject: Subject, side: int) -> None:
+def _judge_unions(subject: SamplerSubject, side: int) -> None:
     nets = promised_nets(subject.spec)
     dims = subject.dims(max([4, *(max(net.dims) + 1 for net in nets)]))
     for count in subject.counts(*_COUNTS[: 2 if subject.quick else 3], dims=dims):
@@ -65,19 +65,17 @@ def _judge_unions(subject: Subject, side: int) -> None:
         if together > _MOST_POINTS:
             continue
         for seed in (0,) if subject.quick else (0, 1):
-            sets, corners = blocks_of(subject, side, _EXACT_BLOCKS, count, dims, seed)
+            sets, corners = _block_sets(subject, side, _EXACT_BLOCKS, count, dims, seed)
             union = np.ascontiguousarray(sets.transpose(0, 2, 1, 3)).reshape(_EXACT_BLOCKS, dims, together)
             try:
-                for net in nets:
-                    judge_net(subject, union, net, together, seed=seed)
-                for promise in subject.spec.promised(Strata):
-                    judge(subject, promise, union, together, seed=seed)
+                for promise in [*nets, *subject.spec.promised(Strata)]:
+                    judge_promise(subject, promise, union, together, seed=seed)
             except CheckFailed as failed:
-                raise _of_a_block(failed, side, count, corners) from None
+                raise _locate(failed, side, count, corners) from None
 
 
-def _of_a_block(failed: CheckFailed, side: int, count: int, corners: NDArray[np.int64]) -> CheckFailed:
-    """The failure of a union, told of the block: which pixels its points come from."""
+def _locate(failed: CheckFailed, side: int, count: int, corners: NDArray[np.int64]) -> CheckFailed:
+    """Return the failure of a union with the pixels that its points come from."""
     example = failed.example
     assert example is not None
     assert isinstance(example.realization, int)
@@ -91,10 +89,10 @@ def _of_a_block(failed: CheckFailed, side: int, count: int, corners: NDArray[np.
     )
 
 
-def _judge_errors(subject: Subject, side: int) -> None:
+def _judge_errors(subject: SamplerSubject, side: int) -> None:
     dims = subject.dims(2)
     count = subject.counts(4, dims=dims)[0]
-    sets, corners = blocks_of(subject, side, _BLOCKS, count, dims)
+    sets, corners = _block_sets(subject, side, _BLOCKS, count, dims)
     for name, errors in _errors(sets):
         grid = errors.reshape(_BLOCKS, side, side)
         pixel = float((grid**2).mean())
@@ -104,17 +102,16 @@ def _judge_errors(subject: Subject, side: int) -> None:
             squares = grid.reshape(_BLOCKS, side // square, square, side // square, square).mean(axis=(2, 4))
             left = square**2 * float((squares**2).mean()) / pixel
             if left > _LEFT:
-                x, y = (int(c) for c in corners[0])
                 raise CheckFailed(
                     f"averaged over squares of {square} x {square} pixels, {left:.3g} of the variance of {name} is left"
                     f" that independent pixels would leave: less than {_LEFT:g} expected of {side} x {side} pixels that"
                     f" share one sequence ({_BLOCKS} blocks)",
-                    CounterExample(subject.text, count, dims, 0, (x, y)),
+                    subject.request(count, dims, realization=(int(corners[0, 0]), int(corners[0, 1]))),
                 )
 
 
-def _errors(sets: NDArray[np.float64]) -> list[tuple[str, NDArray[np.float64]]]:
-    """Errors float64[K, pixels] of smooth integrands, by name."""
+def _errors(sets: Array) -> list[tuple[str, Array]]:
+    """Return the errors float64[K, pixels] of smooth integrands, by name."""
     if sets.shape[2] == 1:
         return [("x0", sets[:, :, 0].mean(axis=2) - 1 / 2)]
     return [

@@ -5,17 +5,17 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from samplekit._specs import AnyCount, GridStrata, LatinStrata, Net
-from samplekit.testing._result import check
+from samplekit.testing._result import conformance_check
 
 if TYPE_CHECKING:
     from samplekit._specs import Promise
-    from samplekit.testing._subject import Subject
+    from samplekit.testing._subject import SamplerSubject
 
 _REALIZATIONS = 8
 
 
-@check("under-declaring", 20, tolerance="hints, never a failure")
-def check_under_declaring(subject: Subject) -> None:
+@conformance_check("under-declaring", 20, tolerance="hints, never a failure")
+def check_under_declaring(subject: SamplerSubject) -> None:
     """Properties that hold in all sets that were looked at, and are not declared, are named in hints."""
     spec = subject.spec
     dims = subject.dims(2)
@@ -30,11 +30,13 @@ def check_under_declaring(subject: Subject) -> None:
         subject.hint("every cell of the grid holds one point: GridStrata() could be promised")
     if dims >= 2 and not spec.promised(Net) and len(net_counts) >= 2 and _holds(subject, Net(), net_counts, dims):
         subject.hint("dimensions 0 and 1 are (0, m, 2)-nets in base 2: Net(dims=(0, 1)) could be promised")
-    if spec.randomized and _one_set(subject, dims):
-        subject.hint("all realisations have one set: randomized=False could be declared")
+    if spec.randomized:
+        values = subject.sets(subject.counts(16, dims=dims)[0], dims, _REALIZATIONS)
+        if (values == values[:1]).all():
+            subject.hint("all realisations have one set: randomized=False could be declared")
 
 
-def _has_prefixes(subject: Subject, dims: int) -> bool:
+def _has_prefixes(subject: SamplerSubject, dims: int) -> bool:
     counts = subject.counts(1, 2, 4, 16, 64, 256, dims=dims)
     if len(counts) < 3:
         return False
@@ -42,15 +44,9 @@ def _has_prefixes(subject: Subject, dims: int) -> bool:
     return all((subject.sets(count, dims, 2) == whole[:, :, :count]).all() for count in counts[:-1])
 
 
-def _holds(subject: Subject, promise: Promise, counts: list[int], dims: int) -> bool:
+def _holds(subject: SamplerSubject, promise: Promise, counts: list[int], dims: int) -> bool:
     """Tell whether a promise holds at all counts, the largest ones first: they fail at once where it does not."""
     return bool(counts) and all(
         promise.find_violation(subject.sets(count, dims, _REALIZATIONS).transpose(0, 2, 1)) is None
         for count in reversed(counts)
     )
-
-
-def _one_set(subject: Subject, dims: int) -> bool:
-    count = subject.counts(16, dims=dims)[0]
-    values = subject.sets(count, dims, _REALIZATIONS)
-    return bool((values == values[:1]).all())

@@ -1,0 +1,96 @@
+"""Large indices and pixels at the far ends: no overflow, no wrap, and nets are nets there too."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from samplekit._bases.realizations import Realizations
+from samplekit._specs import Net
+from samplekit.testing._checks.range import judge_range
+from samplekit.testing._judge import judge_equal, judge_promise
+from samplekit.testing._result import CheckFailed, NotApplicable, conformance_check
+
+if TYPE_CHECKING:
+    from samplekit.testing._subject import SamplerSubject
+
+_PLACES = (2**16, 2**31 - 1, 2**32, 2**40)
+_POINTS = 16
+_COORDINATES = (0, 1, 255, 256, 2**16 + 1, 2**31 - 1, 2**32 - 1)
+
+
+@conformance_check("large-index", 16)
+def check_large_index(subject: SamplerSubject) -> None:
+    """Points at indices about 2^16, 2^31, 2^32 and 2^40, as far as declared, are right and not those of small ones."""
+    if not subject.sampler.streams:
+        raise NotApplicable("it makes sets as a whole: large indices are large sets")
+    dims, most = subject.dims(2), subject.spec.largest_index + 1
+    # Declared counts just above each place, and the largest one.
+    wanted = [n for place in _PLACES for n in (place + _POINTS, 2 * place, place)] + [2**30, 2**20, most]
+    counts = sorted({n for n in wanted if n >= 2**16 and subject.allows(n, dims)})
+    if not counts:
+        raise NotApplicable(f"its largest index is {subject.spec.largest_index}")
+    realizations = Realizations.of_trials(0, 2, 0)
+    for count in counts:
+        beginning = subject.fill(realizations, count, dims, 0, _POINTS)
+        for start in sorted({count - _POINTS, *(p - _POINTS // 2 for p in _PLACES if p + _POINTS // 2 <= count)}):
+            values = subject.fill(realizations, count, dims, start, _POINTS)
+            judge_range(subject, values, count, 0)
+            for i in (0, _POINTS // 2, _POINTS - 1):
+                alone = subject.fill(realizations, count, dims, start + i, 1)
+                judge_equal(subject, values[:, :, i : i + 1], alone, count, "when asked for alone", start=start + i)
+            same = (values[0, :, :, None] == beginning[0, :, None, :]).all(axis=0)
+            if start >= _POINTS and same.any():
+                late, early = (int(i) for i in np.argwhere(same)[0])
+                raise CheckFailed(
+                    f"point {start + late} of {count} is point {early} again",
+                    subject.example(values, count, start=start, indices=(late,)),
+                )
+    for net in subject.spec.promised(Net):
+        dims = subject.dims(max(net.dims) + 1)
+        if net.sequence and max(net.dims) < dims:
+            _judge_late_blocks(subject, net, dims)
+
+
+def _judge_late_blocks(subject: SamplerSubject, net: Net, dims: int) -> None:
+    """Judge blocks of a promised (t, s)-sequence about the places: each is a net."""
+    block = next(net.base**m for m in range(64) if net.base**m >= 64 or m == net.t + 3)
+    for place in _PLACES:
+        # The count is a power of the base, for samplers that make nothing else.
+        count = net.base
+        while count < place + block:
+            count *= net.base
+        if subject.allows(count, dims):
+            start = place // block * block
+            values = subject.fill(Realizations.of_trials(0, 2, 0), count, dims, start, block)
+            judge_promise(subject, net, values, count, start=start)
+
+
+@conformance_check("pixel-extremes", 17)
+def check_pixel_extremes(subject: SamplerSubject) -> None:
+    """Pixels at 0, 2^16 + 1, 2^31 - 1 and 2^32 - 1 have sets of their own, the same alone as in company."""
+    dims = subject.dims(2)
+    count = subject.counts(16, dims=dims)[0]
+    pixels = [(x, y) for y in _COORDINATES for x in _COORDINATES]
+    x, y = np.array(pixels, np.int64).T
+    values = subject.fill(Realizations.of_pixels(x, y, 0), count, dims)
+    judge_range(subject, values, count, 0)
+    for i, pixel in enumerate(pixels):
+        alone = subject.fill(Realizations.of_pixels(x[i : i + 1], y[i : i + 1], 0), count, dims)
+        if (alone[0] != values[i]).any():
+            raise CheckFailed(
+                "the set of a pixel is another one when it is asked for alone",
+                subject.request(count, dims, realization=pixel),
+            )
+    seen: dict[bytes, tuple[int, int]] = {}
+    for pixel, points in zip(pixels, values, strict=True) if subject.spec.randomized else ():
+        earlier = seen.setdefault(points.tobytes(), pixel)
+        if earlier != pixel and not _may_repeat(subject.spec.period, earlier, pixel):
+            raise CheckFailed(
+                f"pixels {earlier} and {pixel} have the same set", subject.request(count, dims, realization=pixel)
+            )
+
+
+def _may_repeat(period: int | None, first: tuple[int, int], second: tuple[int, int]) -> bool:
+    return period is not None and all((b - a) % period == 0 for a, b in zip(first, second, strict=True))

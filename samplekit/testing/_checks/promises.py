@@ -1,0 +1,125 @@
+"""Promised nets, strata and distances: every set keeps them exactly."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from samplekit._bases.realizations import Realizations
+from samplekit._specs import MinimumDistance, Net, Strata
+from samplekit.testing._judge import judge_promise
+from samplekit.testing._result import NotApplicable, conformance_check
+
+if TYPE_CHECKING:
+    from samplekit._specs import SamplerSpec
+    from samplekit.testing._subject import SamplerSubject
+
+_LARGEST_NET, _LARGEST_QUICK_NET = 1 << 16, 1 << 12
+_LARGEST_BLOCK = 1 << 10
+_MOST_WORK = 1 << 25
+_COUNTS = (1, 2, 3, 4, 5, 6, 7, 9, 12, 16, 25, 49, 64, 96, 97, 100, 121, 256, 1000, 1024, 2025, 4096)
+_QUICK_COUNTS = (1, 2, 3, 4, 7, 12, 25, 64, 97, 1000)
+_DISTANCE_COUNTS, _QUICK_DISTANCE_COUNTS = (2, 3, 16, 64, 97, 100, 256, 1024), (2, 3, 16, 64, 97, 100, 256)
+_SEEDS = (0, 1)
+
+
+def promised_nets(spec: SamplerSpec) -> list[Net]:
+    """Return the nets that are promised in dimensions that the sampler has."""
+    most = spec.dimensions[1]
+    return [net for net in spec.promised(Net) if most is None or max(net.dims) < most]
+
+
+@conformance_check("elementary-intervals", 7, requires=lambda spec: "" if promised_nets(spec) else "it promises no net")
+def check_elementary_intervals(subject: SamplerSubject) -> None:
+    """Every elementary interval of every promised net holds its points: first block, later ones of a sequence.
+
+    A (t, m, s)-net has b^t points in every b-adic box of volume b^(t - m), of every shape: Niederreiter 1987, "Point
+    sets and sequences with small discrepancy".
+    """
+    judged = False
+    nets = promised_nets(subject.spec)
+    for net in nets:
+        dims = subject.dims(max(net.dims) + 1)
+        for m in range(net.t, 64):
+            count = net.base**m
+            boxes = math.comb(m - net.t + len(net.dims) - 1, len(net.dims) - 1)
+            largest = _LARGEST_QUICK_NET if subject.quick else _LARGEST_NET
+            if count > min(largest, subject.spec.largest_index + 1) or count * boxes > _MOST_WORK:
+                break
+            if not subject.allows(count, dims):
+                continue
+            judged = True
+            wanted = 256 if count <= 256 else 64 if count <= 1024 else 8 if count <= 8192 else 2
+            _judge_sets(subject, net, count, dims, wanted, least=2, seeds=_SEEDS[: 1 if subject.quick else 2])
+            if net.sequence and 1 < count <= _LARGEST_BLOCK:
+                _judge_later_blocks(subject, net, count, dims)
+    if not judged:
+        raise NotApplicable("it makes no count that is a power of a promised base")
+    for extreme in subject.extremes:
+        for net in nets:
+            judge_promise(subject, net, extreme.values, extreme.count, when=extreme.when)
+
+
+def _judge_sets(
+    subject: SamplerSubject,
+    promise: Net | Strata,
+    count: int,
+    dims: int,
+    wanted: int,
+    least: int,
+    seeds: tuple[int, ...] = _SEEDS,
+) -> None:
+    """Judge whole sets of several seeds, as many as the time allows; one set if nothing is random."""
+    if not subject.spec.randomized:
+        wanted, seeds = 1, (0,)
+    realizations = wanted if wanted == 1 else subject.affordable(wanted, count, dims, least)
+    for seed in seeds:
+        judge_promise(subject, promise, subject.sets(count, dims, realizations, seed=seed), count, seed=seed)
+
+
+def _judge_later_blocks(subject: SamplerSubject, net: Net, block: int, dims: int) -> None:
+    count = block * net.base**2
+    if not subject.allows(count, dims):
+        return
+    realizations = Realizations.of_trials(0, 4 if subject.spec.randomized else 1, 0)
+    for start in range(block, count, block)[: 4 if subject.quick else 24]:
+        values = subject.fill(realizations, count, dims, start, block)
+        judge_promise(subject, net, values, count, start=start)
+
+
+@conformance_check("strata", 8, requires=lambda spec: "" if spec.promised(Strata) else "it promises no strata")
+def check_strata(subject: SamplerSubject) -> None:
+    """Every promised interval and cell holds exactly one point, in every set."""
+    judged = False
+    promises = subject.spec.promised(Strata)
+    for promise in promises:
+        for dims in sorted({subject.dims(d) for d in (1, 2, 3, 5)}):
+            for count in subject.counts(*(_QUICK_COUNTS if subject.quick else _COUNTS), dims=dims):
+                if next(promise.cells(count, dims), None) is not None:
+                    judged = True
+                    _judge_sets(subject, promise, count, dims, 64 if count <= 100 else 4, least=4)
+    if not judged:
+        raise NotApplicable("no count that it makes has the promised strata")
+    for extreme in subject.extremes:
+        for promise in promises:
+            judge_promise(subject, promise, extreme.values, extreme.count, when=extreme.when)
+
+
+@conformance_check(
+    "minimum-distance",
+    9,
+    tolerance="2^-51, the rounding of the coordinates",
+    requires=lambda spec: "" if spec.promised(MinimumDistance) else "it promises no minimum distance",
+)
+def check_minimum_distance(subject: SamplerSubject) -> None:
+    """No two points are closer than the promised part of the densest packing's distance, on the torus."""
+    judged = False
+    for promise in subject.spec.promised(MinimumDistance):
+        for dims in sorted({subject.dims(d) for d in (1, 2, 3)}):
+            for count in subject.counts(*(_QUICK_DISTANCE_COUNTS if subject.quick else _DISTANCE_COUNTS), dims=dims):
+                if promise.distance(count, dims) is not None:
+                    judged = True
+                    realizations = subject.affordable(16 if count <= 256 else 2, count, dims, least=1)
+                    judge_promise(subject, promise, subject.sets(count, dims, realizations), count)
+    if not judged:
+        raise NotApplicable("the densest packing is known in 1 to 5 dimensions, of 2 points and more")

@@ -1,0 +1,99 @@
+"""Purity: points come from the request alone, and making them changes nothing else."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import random
+import threading
+from concurrent.futures import ThreadPoolExecutor
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from samplekit.testing._elsewhere import judge_elsewhere
+from samplekit.testing._judge import judge_equal
+from samplekit.testing._result import CheckFailed, conformance_check
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from samplekit.testing._subject import Array, SamplerSubject
+
+_TIMES, _MOST_TIMES = 4, 256
+
+
+@conformance_check("purity", 18)
+def check_purity(subject: SamplerSubject) -> None:
+    """Usable from two threads at once, pickles, prints nothing, leaves the global generators and settings alone."""
+    dims = subject.dims(3)
+    for count in subject.counts(7, 64, dims=dims):
+        with changing_nothing():
+            whole = subject.sets(count, dims, 32)
+        with _seeded_globals():
+            judge_equal(subject, whole, subject.sets(count, dims, 32), count, "with other global generators")
+        for other in _at_once(subject, count, dims):
+            judge_equal(subject, whole, other, count, "while another thread asked as well")
+    if not subject.quick:
+        judge_elsewhere(subject, "pickle", "pickled, in another process")
+
+
+@contextlib.contextmanager
+def changing_nothing() -> Iterator[None]:
+    """Raise if the code inside prints, or changes a global generator or how NumPy handles errors."""
+    out = io.StringIO()
+    # States of our own: a sampler that seeded a generator before would not change it by seeding it so again.
+    with _seeded_globals(), contextlib.redirect_stdout(out):
+        python, numpy, errors = random.getstate(), _numpy_state(), np.geterr()
+        yield
+        if random.getstate() != python:
+            raise CheckFailed("changes the state of Python's global generator (module random)")
+        if _numpy_state() != numpy:
+            raise CheckFailed("changes the state of NumPy's global generator (numpy.random)")
+        if np.geterr() != errors:
+            raise CheckFailed("changes how NumPy handles floating-point errors (numpy.seterr)")
+    # Results of commands go to standard output.
+    if out.getvalue():
+        raise CheckFailed(f"prints to standard output: {out.getvalue()[:60]!r}")
+
+
+@contextlib.contextmanager
+def _seeded_globals() -> Iterator[None]:
+    """Give the global generators other states inside, and the old ones afterwards."""
+    python, numpy = random.getstate(), np.random.get_state()  # noqa: NPY002 - judged, not used
+    random.seed(20)
+    np.random.seed(20)  # noqa: NPY002
+    try:
+        yield
+    finally:
+        random.setstate(python)
+        np.random.set_state(numpy)  # noqa: NPY002
+
+
+def _numpy_state() -> bytes:
+    name, keys, position, has_gauss, cached = np.random.get_state()  # noqa: NPY002
+    return f"{name} {position} {has_gauss} {cached} ".encode() + np.asarray(keys).tobytes()
+
+
+def _at_once(subject: SamplerSubject, count: int, dims: int) -> list[Array]:
+    """Make the same request from two threads that start together, several times."""
+    made: tuple[list[Array], list[Array]] = ([], [])
+    barrier = threading.Barrier(2)
+    failed = threading.Event()
+
+    def run(mine: list[Array], others: list[Array]) -> None:
+        barrier.wait()
+        try:
+            # Until the other one has asked as well: on a busy machine it may start when this one would be done.
+            while len(mine) < _TIMES or (len(others) < _TIMES and len(mine) < _MOST_TIMES and not failed.is_set()):
+                mine.append(subject.sets(count, dims, 32))
+        except BaseException:
+            failed.set()
+            raise
+
+    with ThreadPoolExecutor(2) as threads:
+        runs = [threads.submit(run, *lists) for lists in (made, made[::-1])]
+    failures = [error for error in (each.exception() for each in runs) if error]
+    if failures:
+        raise CheckFailed(f"raises when two threads ask at once: {type(failures[0]).__name__}: {failures[0]}")
+    return [*made[0], *made[1]]
