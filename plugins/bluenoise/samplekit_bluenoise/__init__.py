@@ -9,7 +9,13 @@ LARGEST_RADIUS = 0.76
 
 
 def _bank_option(sets: int) -> Option:
-    return Option("bank", sets, "sets that all pixels share, shifted and mirrored; 0: each pixel a fresh set", 0, 2**16)
+    return Option(
+        "bank",
+        sets,
+        "number of sets that all pixels share, shifted and mirrored; 0: each pixel has a fresh set",
+        0,
+        2**16,
+    )
 
 
 @hookimpl
@@ -43,8 +49,13 @@ def samplekit_samplers() -> list[SamplerSpec]:
             "points relaxed to the centroids of their Voronoi cells",
             reference="Lloyd 1982; McCool, Fiume 1992",
             options=(
-                Option("steps", 10, "steps of relaxation", 0, 10_000),
-                Option("initial", "poisson-disk", "the points before", choices=("poisson-disk", "jittered", "random")),
+                Option("steps", 10, "number of steps", 0, 10_000),
+                Option(
+                    "initial",
+                    "poisson-disk",
+                    "points before the first step",
+                    choices=("poisson-disk", "jittered", "random"),
+                ),
                 _bank_option(64),
             ),
             dimensions=(2, 2),
