@@ -43,7 +43,7 @@ def test_a_sampler_in_full(capsys):
         "points         squares of primes: 4, 9, 25, 49,",
         "progressive    no: another number of points is another set",
         "one point in each of the s^2 cells of any 2 dimensions",
-        "strength=2         dimensions that are stratified together; 2 to 3",
+        "strength=2         number of dimensions that are stratified together; 2 to 3",
         "largest index  4294967295",
         "period         none",
     ):

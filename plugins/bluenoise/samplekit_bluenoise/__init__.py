@@ -1,20 +1,26 @@
-"""Blue noise: the declarations. Nothing here imports NumPy; the samplers are imported when they are used."""
+"""The declarations of blue noise. Nothing here imports NumPy; a sampler is imported when it is first used."""
 
 from samplekit import MinimumDistance, Option, SamplerSpec, hookimpl
 
 DEFAULT_RADIUS = 0.698
-"""A distance of 0.75 / sqrt(N): disks that cover 0.44 of the torus, where random ones jam at 0.547."""
+"""A distance of 0.75 / sqrt(N): the disks cover 0.44 of the torus, where random disks jam at 0.547."""
 LARGEST_RADIUS = 0.76
-"""Disks that cover 0.524: dart throwing still finds room for the last, in at most a few attempts."""
+"""The disks cover 0.524 of the torus: dart throwing still finds room for the last point within a few attempts."""
 
 
-def _bank(sets: int) -> Option:
-    return Option("bank", sets, "sets that all pixels share, shifted and mirrored; 0: each pixel a fresh set", 0, 2**16)
+def _bank_option(sets: int) -> Option:
+    return Option(
+        "bank",
+        sets,
+        "number of sets that all pixels share, shifted and mirrored; 0: each pixel has a fresh set",
+        0,
+        2**16,
+    )
 
 
 @hookimpl
 def samplekit_samplers() -> list[SamplerSpec]:
-    """The blue-noise samplers."""
+    """Declare the blue-noise samplers."""
     return [
         SamplerSpec(
             "poisson-disk",
@@ -30,7 +36,7 @@ def samplekit_samplers() -> list[SamplerSpec]:
                     LARGEST_RADIUS,
                 ),
                 Option("method", "darts", "how the points are found", choices=("darts", "elimination")),
-                _bank(0),
+                _bank_option(0),
             ),
             dimensions=(2, 2),
             largest_index=2**20 - 1,
@@ -43,9 +49,14 @@ def samplekit_samplers() -> list[SamplerSpec]:
             "points relaxed to the centroids of their Voronoi cells",
             reference="Lloyd 1982; McCool, Fiume 1992",
             options=(
-                Option("steps", 10, "steps of relaxation", 0, 10_000),
-                Option("initial", "poisson-disk", "the points before", choices=("poisson-disk", "jittered", "random")),
-                _bank(64),
+                Option("steps", 10, "number of steps", 0, 10_000),
+                Option(
+                    "initial",
+                    "poisson-disk",
+                    "points before the first step",
+                    choices=("poisson-disk", "jittered", "random"),
+                ),
+                _bank_option(64),
             ),
             dimensions=(2, 2),
             largest_index=2**20 - 1,
@@ -58,7 +69,7 @@ def samplekit_samplers() -> list[SamplerSpec]:
             reference="Balzer, Schlömer, Deussen 2009",
             options=(
                 Option("capacity", 0, "background points for each point; 0: 256, or 1024 below 64 points", 0, 2**16),
-                _bank(64),
+                _bank_option(64),
             ),
             dimensions=(2, 2),
             largest_index=2**16 - 1,

@@ -1,8 +1,8 @@
-"""Sets made as a whole, and banks of them: few sets that all pixels share, each under its own shift and symmetry.
+"""Sets that are made as a whole, and banks: a few sets that all pixels share, each under its own shift and symmetry.
 
 A random shift on the torus and one of the eight symmetries of the square keep every distance and the expected power
-spectrum, and make any set unbiased; so fresh sets get them too. A bank depends on the sampler, its options and the
-count, not on the seed: it is made once, and kept across runs.
+spectrum, and make any set unbiased; fresh sets get them for that reason. A bank depends on the sampler, its options and
+the count, not on the seed: it is made once, and kept across runs.
 """
 
 from __future__ import annotations
@@ -24,10 +24,12 @@ if TYPE_CHECKING:
 
     from numpy.typing import NDArray
 
+    Array = NDArray[np.float64]
+
 VERSION = 1
-"""Part of a bank's key: to be raised when any sampler here gives other points."""
+"""Part of a bank's key: raise it when the points of any sampler here change."""
 MOST_POINTS = 2**20
-"""A bank holds no more points than this, 16 MB: beyond 16 384 points a bank of 64 sets becomes one of fewer."""
+"""Largest number of points in a bank, 16 MB: with more than 16 384 points per set, a bank has fewer than 64 sets."""
 
 _U64 = np.uint64
 _PLACE = _U64(0x510E527FADE682D1)
@@ -36,14 +38,12 @@ _FRESH_POINTS = 2**16
 _MOST_BANKS = 4
 
 _lock = threading.Lock()
-_banks: OrderedDict[str, NDArray[np.float64]] = OrderedDict()
+_banks: OrderedDict[str, Array] = OrderedDict()
 
 
 @kernel("void(float64[:,:,::1], float64[:,:,::1], uint64[::1], int64, boolean)")
-def _place(
-    out: NDArray[np.float64], sets: NDArray[np.float64], keys: NDArray[np.uint64], start: int, shared: bool
-) -> None:
-    """Write points of set r, or of any set if they are ``shared``, under the shift and symmetry of realisation r.
+def _place(out: Array, sets: Array, keys: NDArray[np.uint64], start: int, shared: bool) -> None:
+    """Write points of set r, or with ``shared`` of a random set, under the shift and symmetry of realisation r.
 
     ``sets`` float64[S, 2, N] may be ``out`` itself.
     """
@@ -73,7 +73,7 @@ class WholeSets(Sampler):
     Parameters
     ----------
     name
-        What the bank depends on but for the count: the sampler and its options.
+        The sampler and its options: all that a bank depends on, apart from the count.
     bank
         Number of sets in the bank; 0 makes every realisation afresh.
     """
@@ -82,11 +82,11 @@ class WholeSets(Sampler):
         self._name = name
         self._bank = bank
 
-    def make(self, sets: NDArray[np.float64], realizations: Realizations) -> None:
+    def make(self, sets: Array, realizations: Realizations) -> None:
         """Write whole sets to ``sets`` float64[R, 2, N], coordinates in [0, 1) that are multiples of 2^-53."""
         raise NotImplementedError
 
-    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+    def fill(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`samplekit.Sampler.fill`."""
         if self._bank:
             _place(out, self._sets(count), realizations.keys, start, True)
@@ -100,12 +100,12 @@ class WholeSets(Sampler):
             _place(part, sets, some.keys, start, False)
 
     def prepare(self, count: int, dims: int, progress: Callable[[int, int], None]) -> None:
-        """Make the bank, or load it; see :meth:`samplekit.Sampler.prepare`."""
+        """Make or load the bank; see :meth:`samplekit.Sampler.prepare`."""
         if self._bank:
             self._sets(count, progress)
 
     def notes(self, count: int, dims: int) -> list[str]:
-        """That the sets come from a bank; see :meth:`samplekit.Sampler.notes`."""
+        """Say that the sets come from a bank; see :meth:`samplekit.Sampler.notes`."""
         if not self._bank:
             return []
         size = self._size(count)
@@ -114,14 +114,14 @@ class WholeSets(Sampler):
 
     @property
     def streams(self) -> bool:
-        """Sets are made whole, even for a part of one."""
+        """Return False: a set is made as a whole, even if only a part is wanted."""
         return False
 
     def _size(self, count: int) -> int:
         return max(1, min(self._bank, MOST_POINTS // count))
 
-    def _sets(self, count: int, progress: Callable[[int, int], None] = lambda _, __: None) -> NDArray[np.float64]:
-        """The bank float64[B, 2, N]: made by the first that asks while others wait."""
+    def _sets(self, count: int, progress: Callable[[int, int], None] = lambda _, __: None) -> Array:
+        """Return the bank, float64[B, 2, N]: the first thread that asks makes it while others wait."""
         shape = (self._size(count), 2, count)
         key = f"{self._name} bluenoise={VERSION} sets={shape[0]} count={count}"
         with _lock:
@@ -133,7 +133,7 @@ class WholeSets(Sampler):
             _banks.move_to_end(key)
             return _banks[key]
 
-    def _make_bank(self, shape: tuple[int, int, int], progress: Callable[[int, int], None]) -> NDArray[np.float64]:
+    def _make_bank(self, shape: tuple[int, int, int], progress: Callable[[int, int], None]) -> Array:
         sets = np.empty(shape)
         realizations = Realizations.of_trials(0, shape[0], _SEED)
         progress(0, shape[0])
@@ -149,7 +149,7 @@ class WholeSets(Sampler):
         return sets
 
 
-def _is_bank(shape: tuple[int, ...]) -> Callable[[NDArray[np.float64]], bool]:
+def _is_bank(shape: tuple[int, ...]) -> Callable[[Array], bool]:
     return lambda sets: bool(
         sets.shape == shape and sets.dtype == np.float64 and sets.min() >= 0.0 and sets.max() < 1.0
     )

@@ -1,12 +1,13 @@
-"""Capacity-constrained Voronoi tessellations: every site owns as many points of a background, and is their centroid.
+"""Capacity-constrained Voronoi tessellations: all sites own equally many background points, and lie at their centroids.
 
 Balzer, Schlömer, Deussen 2009, "Capacity-constrained point distributions: a variant of Lloyd's method". Three things
 differ from the paper:
 
-- the background is jittered, where random points leave a floor of 1 / capacity in N P at low frequencies;
-- the first assignment is a division along lines that favour no direction, and leave no lattice behind;
-- the background is refined in steps: sites settle with a few points each, every point is then replaced by one in each
-  quarter of its stratum, and they settle again. Capacities stay equal, and the long way is gone with few points.
+- The background is jittered: with random points N P has a floor of 1 / capacity at low frequencies.
+- The first assignment divides the background along lines that favour no direction, so that no lattice remains.
+- The background is refined in steps: sites settle with a few points each; then every point is replaced by one in each
+  quarter of its stratum, and the sites settle again. Capacities stay equal, and most of the way is gone with few
+  points.
 """
 
 from __future__ import annotations
@@ -26,14 +27,16 @@ if TYPE_CHECKING:
 
     from samplekit import Realizations
 
+    Array = NDArray[np.float64]
+
 _COARSEST = 8
-"""The least points of a site that sites settle with."""
+"""Smallest number of background points per site at which sites are left to settle."""
 _MOST_SWEEPS = 200
-"""At 1024 sites with 256 points each they settle in about 60."""
+"""1024 sites with 256 points each settle in about 60 sweeps."""
 
 
-def steps_of_capacity(capacity: int) -> tuple[int, int]:
-    """The capacity to begin with and the number of refinements, by four each, that lead to ``capacity``."""
+def capacity_steps(capacity: int) -> tuple[int, int]:
+    """Return the capacity to begin with, and the number of refinements, by four each, that lead to ``capacity``."""
     splits = 0
     while capacity % 4 == 0 and capacity // 4 >= _COARSEST:
         capacity //= 4
@@ -42,18 +45,26 @@ def steps_of_capacity(capacity: int) -> tuple[int, int]:
 
 
 class CapacityConstrained(WholeSets):
-    """Sites that own ``capacity`` background points each; 0 chooses by the count."""
+    """Sites that own ``capacity`` background points each.
+
+    Parameters
+    ----------
+    capacity
+        Background points per site; 0: 256, or 1024 below 64 sites.
+    bank
+        Number of sets in the bank; 0 makes every realisation afresh.
+    """
 
     def __init__(self, capacity: int, bank: int) -> None:
         super().__init__(f"ccvt capacity={capacity}", bank)
         self._capacity = capacity
 
-    def make(self, sets: NDArray[np.float64], realizations: Realizations) -> None:
+    def make(self, sets: Array, realizations: Realizations) -> None:
         """Write whole sets; see :meth:`WholeSets.make`."""
         count = sets.shape[2]
-        # Of few sites the cells are large against the set, and so is what a coarse background does to them.
+        # The cells of few sites are large against the set, and so are the errors of a coarse background.
         capacity = self._capacity or (256 if count >= 64 else 1024)
-        coarse, splits = steps_of_capacity(capacity)
+        coarse, splits = capacity_steps(capacity)
         words = realizations.random_words(4 + splits)
         for r in range(len(realizations)):
             points = np.empty((2, count * coarse))
@@ -61,7 +72,7 @@ class CapacityConstrained(WholeSets):
             cut_open(points, words[r, 1])
             divide(points, count, words[r, 2])
             points -= np.floor(points)
-            # Any point of a site's own will do for a start.
+            # A site may start at any of its own points.
             sites = np.ascontiguousarray(points[:, ::coarse])
             settle(sites, points, _MOST_SWEEPS)
             for k in range(splits):

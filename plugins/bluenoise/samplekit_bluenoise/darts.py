@@ -1,10 +1,10 @@
 """Dart throwing in time linear in the number of points: random sequential addition of disks on the torus.
 
-First darts go anywhere. When they begin to fail, a list is made of the square cells where a dart may still be
-accepted; a dart then goes to a random place of a random cell of the list. All cells of the list have one size and
-what they leave out is covered by disks, so that the accepted darts have exactly the law of darts thrown at the whole
-square. When these darts fail in turn, every cell is split into four, and quarters that a single disk covers leave the
-list.
+At first darts go anywhere. When they begin to fail, a list is made of the square cells where a dart may still be
+accepted; a dart then goes to a random place in a random cell of the list. All cells of the list have the same size, and
+disks cover the rest of the square, so that the accepted darts have exactly the distribution of darts thrown at the
+whole square. When these darts begin to fail too, every cell is split into four, and the quarters that a single disk
+covers leave the list.
 
 The idea is that of Jones 2006, "Efficient generation of Poisson-disk sampling patterns", and White, Cline, Egbert
 2007, "Poisson disk point sets by hierarchical dart throwing", with cells of one size at a time as in Ebeida et al.
@@ -13,7 +13,7 @@ The idea is that of Jones 2006, "Efficient generation of Poisson-disk sampling p
 Disks placed at random jam when they cover 0.547 of the plane (Feder 1980), at a distance near 0.835 / sqrt(N). A set
 that jams before its last point is thrown away whole and begun anew.
 
-Coordinates are 32-bit fractions: their differences wrap by themselves, and a large set takes half the memory.
+Coordinates are 32-bit fractions: their differences wrap around by themselves, and a large set takes half the memory.
 """
 
 from __future__ import annotations
@@ -28,33 +28,36 @@ from samplekit.kernels import TWO_M32, below, dimension_key, hash_index, helper,
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    Array = NDArray[np.float64]
+
 _U64 = np.uint64
 _LOW = _U64(0xFFFFFFFF)
 _S32 = _U64(32)
 
 MOST_ATTEMPTS = 100
-"""Sets begun for one realisation before giving up."""
+"""Number of sets begun for one realisation before giving up."""
 _MISSES_ANYWHERE = 14.0
-"""Failed darts for each cell of the grid before the list is made, and ..."""
+"""Failed darts per cell of the grid before the list is made. This and the next number affect only the time."""
 _MISSES_IN_LIST = 0.7
-"""... for each cell of the list before its cells are split. Both decide on the time alone."""
+"""Failed darts per cell of the list before the cells are split."""
 _HANDFUL = 32
-"""Darts that are drawn together."""
+"""Number of darts that are drawn together."""
 _SPLITS = 16
-"""Cells a 2^-16th of the grid's wide that are still open hold no area to speak of: the set counts as jammed."""
+"""Number of splits after which a set counts as jammed: cells 2^-16 as wide as the grid's have hardly any area left."""
 _NEAR = np.array([(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)])
-"""Steps to the cells around one and to itself, nearest first: there a conflict is likeliest."""
+"""Steps to a cell itself and to the cells around it, nearest first, where a conflict is most likely."""
 _MARGIN = 2.0**-30
-"""Cells are wider than the distance by a few of the smallest fractions: darts are rounded to these in their cells."""
+"""Cells are wider than the distance by a few of the smallest fractions, to which darts are rounded in their cells."""
 _ROW = 32
 _COLUMN = 2**_ROW - 1
 _ONE = 2.0**32
 
 
 def cells_per_axis(count: int, distance: float) -> int:
-    """Side of the grid whose cells are no narrower than the distance: conflicts are with the 3 x 3 cells around a dart.
+    """Return the side of a grid whose cells are no narrower than the distance: conflicts lie in 3 x 3 cells.
 
-    1 where fewer than 3 cells would fit, and about as many cells as points where the distance is small.
+    The side is 1 where fewer than 3 cells would fit; where the distance is small there are about as many cells as
+    points.
     """
     side = math.floor(min(1.0 / (distance + _MARGIN), math.ceil(math.sqrt(count))))
     return side if side >= 3 else 1
@@ -62,13 +65,13 @@ def cells_per_axis(count: int, distance: float) -> int:
 
 @helper
 def _wrapped(difference: np.int64) -> np.float64:
-    """The shortest of the differences that are equal modulo 2^32."""
+    """Return the shortest of the differences that are equal modulo 2^32."""
     return np.float64(((difference + 2**31) & 0xFFFFFFFF) - 2**31)
 
 
 @helper
 def _around(cell: np.int64, step: np.int64, side: int) -> np.int64:
-    """The cell ``step`` cells on along an axis of the torus, -1 <= step <= 1."""
+    """Return the cell ``step`` cells further along an axis of the torus, -1 <= step <= 1."""
     moved = cell + step
     return moved + side if moved < 0 else moved - side if moved >= side else moved
 
@@ -84,7 +87,7 @@ def _is_free(
     head: NDArray[np.int32],
     following: NDArray[np.int32],
 ) -> bool:
-    """Whether no point in the cells around (column, row) is closer to (x, y) than the root of ``least``."""
+    """Return whether no point in the cells around (column, row) is closer to (x, y) than the root of ``least``."""
     side = head.shape[0]
     for k in range(9 if side > 1 else 1):
         i = _around(column, _NEAR[k, 0], side)
@@ -110,7 +113,7 @@ def _keep(
     head: NDArray[np.int32],
     following: NDArray[np.int32],
 ) -> int:
-    """Add a point to the first ``placed`` and to the list of its cell; return the new number."""
+    """Add a point to the ``placed`` points and to the list of its cell; return the new number of points."""
     points[placed, 0] = x
     points[placed, 1] = y
     following[placed] = head[row, column]
@@ -133,7 +136,7 @@ def _split(
 ) -> int:
     """Append the quarters of cell (column, row) that no single disk covers to the first ``kept`` cells.
 
-    Quarters are ``width`` wide. Returns the new number of cells.
+    Quarters are ``width`` wide. Return the new number of cells.
     """
     side = head.shape[0]
     x = np.int64((2 * column + 1) * width)
@@ -144,8 +147,8 @@ def _split(
         j = _around(row >> splits, _NEAR[k, 1], side)
         p = head[j, i]
         while p >= 0:
-            # A quarter is covered if its farthest corner is. Across the torus these distances come out too large,
-            # which only leaves a covered quarter in the list.
+            # A quarter is covered if its farthest corner is. Across the torus these distances are too large, which only
+            # leaves a covered quarter in the list.
             dx = _wrapped(points[p, 0] - x)
             dy = _wrapped(points[p, 1] - y)
             left = max(abs(dx), abs(dx + width)) ** 2
@@ -165,8 +168,8 @@ def _split(
 
 
 @kernel("int64(float64[:,:,::1], uint64[::1], float64, int64)")
-def throw_darts(out: NDArray[np.float64], keys: NDArray[np.uint64], distance: float, side: int) -> int:
-    """Write sets of points that are no closer than ``distance``, in the order in which they were accepted.
+def throw_darts(out: Array, keys: NDArray[np.uint64], distance: float, side: int) -> int:
+    """Write sets of points no two of which are closer than ``distance``, in the order in which they were accepted.
 
     Parameters
     ----------
@@ -175,9 +178,9 @@ def throw_darts(out: NDArray[np.float64], keys: NDArray[np.uint64], distance: fl
     keys
         uint64[R].
     distance
-        The least distance.
+        Smallest distance of two points on the torus.
     side
-        Of the grid that finds conflicts: :func:`cells_per_axis`.
+        Side of the grid that finds conflicts: see :func:`cells_per_axis`.
 
     Returns
     -------
@@ -205,7 +208,7 @@ def throw_darts(out: NDArray[np.float64], keys: NDArray[np.uint64], distance: fl
                     y = np.int64(bits & _LOW)
                     handful[k, 0] = x
                     handful[k, 1] = y
-                    # Not needed, but fetches the cells of the whole handful from memory at the same time.
+                    # The value is not used; reading it fetches the cells of the whole handful from memory together.
                     handful[k, 2] = head[(y * side) >> 32, (x * side) >> 32]
                 thrown += _HANDFUL
                 for k in range(_HANDFUL):
@@ -241,7 +244,7 @@ def throw_darts(out: NDArray[np.float64], keys: NDArray[np.uint64], distance: fl
                         placed = _keep(placed, x, y, column, row, points, head, following)
                     else:
                         misses += 1
-                # The list does not grow past its first size unless the random numbers are none.
+                # The list outgrows its first size only if the random numbers are no random numbers.
                 if placed == count or active == 0 or active > 4 * side * side or splits == _SPLITS:
                     break
                 width *= 0.5

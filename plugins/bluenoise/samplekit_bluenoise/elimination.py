@@ -1,16 +1,17 @@
-"""Sample elimination: from many random points the most crowded go, until N are left, well spread.
+"""Sample elimination: remove the most crowded of many random points until N well-spread points are left.
 
 Yuksel 2015, "Sample elimination for generating Poisson disk sample sets". Of M = 5 N random points the one with the
 largest weight is removed until N are left. Two points at distance d add (1 - d' / 2 r_max)^8 to each other's weight,
 d' = max(d, 2 r_min). 2 r_max is the distance of the densest packing of N points, r_min is 0.65 r_max (1 - (N/M)^1.5):
 pairs closer than 2 r_min all count as equally bad.
 
-The points are then put in the paper's progressive order: elimination goes on to the next lower power of two, weighed
-for so many points, and from there to half as many again and again. Points come in the reverse order of their removal,
-so that every prefix is well spread, best at powers of two. The points of a smaller set are not those of a larger one.
+The points are then put in the paper's progressive order. Elimination goes on to the next lower power of two, with
+weights for that number of points, and from there again and again to half as many. Points come in the reverse order of
+their removal, so that every prefix is well spread, best at powers of two. The points of a smaller set are not those of
+a larger one.
 
-Nothing is promised: the least distance is some 0.7 of the densest packing's, but a close pair with room around it may
-survive, which happens in about one of a thousand sets of 16 points.
+No distance is promised: it is about 0.7 of the densest packing's, but a close pair with room around it may survive, in
+about one of a thousand sets of 16 points.
 """
 
 from __future__ import annotations
@@ -26,6 +27,8 @@ from samplekit_bluenoise.torus import wrapped
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    Array = NDArray[np.float64]
+
 _U64 = np.uint64
 CANDIDATES = 5
 """M / N: the paper's choice."""
@@ -36,7 +39,7 @@ _BETA = 0.65
 
 @helper
 def _weight(square: float, span: float, least: float) -> float:
-    """What a pair adds to the weight of both, by the square of its distance; ``span`` is 2 r_max, ``least`` 2 r_min."""
+    """Return the weight that a pair gives to both points; ``span`` is 2 r_max, ``least`` is 2 r_min."""
     w = 1.0 - max(math.sqrt(square), least) / span
     w *= w
     w *= w
@@ -44,8 +47,8 @@ def _weight(square: float, span: float, least: float) -> float:
 
 
 @helper
-def _sift(heap: NDArray[np.int64], place: NDArray[np.int64], weights: NDArray[np.float64], size: int, at: int) -> None:
-    """Restore the order of a binary heap, heaviest point first, after the weight of the point at ``at`` fell."""
+def _sift(heap: NDArray[np.int64], place: NDArray[np.int64], weights: Array, size: int, at: int) -> None:
+    """Restore a binary heap, heaviest point first, after the weight of the point at ``at`` has fallen."""
     point = heap[at]
     weight = weights[point]
     child = 2 * at + 1
@@ -64,16 +67,16 @@ def _sift(heap: NDArray[np.int64], place: NDArray[np.int64], weights: NDArray[np
 
 @helper
 def _eliminate(
-    points: NDArray[np.float64],
+    points: Array,
     heap: NDArray[np.int64],
     size: int,
     target: int,
     place: NDArray[np.int64],
-    weights: NDArray[np.float64],
+    weights: Array,
     head: NDArray[np.int64],
     following: NDArray[np.int64],
 ) -> None:
-    """Leave ``target`` of the first ``size`` points of ``heap`` in front; behind come those removed, the last first."""
+    """Reduce the first ``size`` points of ``heap`` to ``target``; the removed points follow, the last removed first."""
     span = math.sqrt(_PACKING / target)
     ratio = target / size
     least = span * (1.0 - ratio * math.sqrt(ratio)) * _BETA
@@ -88,7 +91,7 @@ def _eliminate(
         head[cell] = p
         place[p] = k
         weights[p] = 0.0
-    # First every point collects its weight; then the heaviest go, and take theirs from their neighbours.
+    # First every point collects its weight; then the heaviest are removed, and their neighbours become lighter.
     alive = size
     begun = 0
     while alive > target:
@@ -129,7 +132,7 @@ def _eliminate(
 
 
 @kernel("void(float64[:,:,::1], uint64[::1])")
-def eliminate(out: NDArray[np.float64], keys: NDArray[np.uint64]) -> None:
+def eliminate(out: Array, keys: NDArray[np.uint64]) -> None:
     """Write sets of N points in progressive order: ``out`` float64[R, 2, N], ``keys`` uint64[R]."""
     realizations, _, count = out.shape
     size = CANDIDATES * count
@@ -146,7 +149,7 @@ def eliminate(out: NDArray[np.float64], keys: NDArray[np.uint64]) -> None:
             second = second_key(key)
             for i in range(size):
                 points[i, d] = unit(hash_index(key, second, _U64(i)))
-        # Along rows, so that neighbours on the torus are near in memory too.
+        # Sorted along rows, so that neighbours on the torus are near in memory too.
         points = points[np.argsort(np.floor(points[:, 1] * rows) + points[:, 0], kind="mergesort")]
         for i in range(size):
             heap[i] = i

@@ -1,4 +1,4 @@
-"""Poisson-disk sampling: random points that keep a distance, by dart throwing or by sample elimination."""
+"""Poisson-disk sampling: random points that keep their distance, by dart throwing or by sample elimination."""
 
 from __future__ import annotations
 
@@ -18,12 +18,29 @@ if TYPE_CHECKING:
 
     from samplekit import Realizations, SamplerSpec
 
+    Array = NDArray[np.float64]
+
 _MARGIN = 1e-9
-"""By so much, relatively, darts keep farther apart than promised: other ways to compute distances round otherwise."""
+"""Relative margin of darts over the promised distance, since other ways to compute distances round differently."""
 
 
 class PoissonDisk(WholeSets):
-    """Darts keep ``radius`` times the distance of the densest packing; elimination reaches about 0.7 by itself."""
+    """Random points that keep a distance on the torus.
+
+    Parameters
+    ----------
+    radius
+        Smallest distance of darts, as a fraction of the densest packing's.
+    method
+        ``darts``, or ``elimination``, which takes no radius and reaches about 0.7.
+    bank
+        Number of sets in the bank; 0 makes every realisation afresh.
+
+    Raises
+    ------
+    UsageError
+        A radius is given for elimination.
+    """
 
     def __init__(self, radius: float, method: str, bank: int) -> None:
         if method == "elimination" and radius != DEFAULT_RADIUS:
@@ -32,8 +49,14 @@ class PoissonDisk(WholeSets):
         self._radius = radius
         self._method = method
 
-    def make(self, sets: NDArray[np.float64], realizations: Realizations) -> None:
-        """Write whole sets; see :meth:`WholeSets.make`."""
+    def make(self, sets: Array, realizations: Realizations) -> None:
+        """Write whole sets; see :meth:`WholeSets.make`.
+
+        Raises
+        ------
+        UsageError
+            Darts found no room for all points.
+        """
         if self._method == "elimination":
             eliminate(sets, realizations.keys)
             return
@@ -47,6 +70,6 @@ class PoissonDisk(WholeSets):
             )
 
     def refine(self, spec: SamplerSpec) -> SamplerSpec:
-        """Darts promise their distance if there is one, elimination promises none."""
+        """Declare the distance that darts promise; elimination promises none."""
         promises = (MinimumDistance(self._radius),) if self._method == "darts" and self._radius > 0.0 else ()
         return replace(spec, promises=promises)

@@ -1,7 +1,7 @@
 """Jittered points for any count: N strata of equal area, each nearly a square, and their division into four.
 
-The strata stand in about sqrt(N) rows. A row is as high as its share of the strata, which are equally wide in it, so
-that any N will do.
+The strata form about sqrt(N) rows. The height of a row is its share of the strata, and the strata of a row are equally
+wide, so that any N will do.
 """
 
 from __future__ import annotations
@@ -16,6 +16,8 @@ from samplekit.kernels import TWO_M32, hash_index, helper, kernel, second_key
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    Array = NDArray[np.float64]
+
 _U64 = np.uint64
 _LOW = _U64(0xFFFFFFFF)
 _S32 = _U64(32)
@@ -28,18 +30,19 @@ def _rows(strata: int) -> int:
 
 @helper
 def _high(bits: np.uint64) -> float:
-    """32 random bits as a number at least 2^-33 from 0 and 1: rounding does not move it out of its stratum."""
+    """Return the high 32 bits as a number at least 2^-33 from 0 and 1: rounding keeps it in its stratum."""
     return (np.float64(bits >> _S32) + 0.5) * TWO_M32
 
 
 @helper
 def _low(bits: np.uint64) -> float:
+    """Return the low 32 bits as such a number."""
     return (np.float64(bits & _LOW) + 0.5) * TWO_M32
 
 
 @kernel("void(float64[:,::1], uint64)")
-def scatter(points: NDArray[np.float64], key: np.uint64) -> None:
-    """A random place in each of N strata: ``points`` float64[2, N]."""
+def scatter(points: Array, key: np.uint64) -> None:
+    """Write a random place in each of N strata: ``points`` float64[2, N]."""
     count = points.shape[1]
     rows = _rows(count)
     second = second_key(key)
@@ -53,8 +56,8 @@ def scatter(points: NDArray[np.float64], key: np.uint64) -> None:
 
 
 @kernel("void(float64[:,::1], float64[:,::1], int64, uint64)")
-def split(finer: NDArray[np.float64], points: NDArray[np.float64], splits: int, key: np.uint64) -> None:
-    """Four points for each point, one in each quarter of its stratum.
+def split(finer: Array, points: Array, splits: int, key: np.uint64) -> None:
+    """Write four points for each point, one in each quarter of its stratum.
 
     Parameters
     ----------
@@ -65,7 +68,7 @@ def split(finer: NDArray[np.float64], points: NDArray[np.float64], splits: int, 
     splits
         How often the strata were split before.
     key
-        Of the random places.
+        Key of the random places.
     """
     count = points.shape[1]
     strata = count >> (2 * splits)

@@ -1,9 +1,9 @@
-"""Swapping: pairs of sites exchange background points until no exchange brings points nearer to their sites.
+"""Swaps: pairs of sites exchange background points until no exchange brings points nearer to their sites.
 
-Balzer, Schlömer, Deussen 2009, section 4: the points of two sites s and t are ordered by how much farther they are
-from s than from t, and the nearest half goes to s; then every site moves to the centroid of its points. Pairs that
-cannot gain are left out as in the paper: those of which neither changed since their last turn, and those farther
-apart than the sum of their radii, the distances to their farthest points.
+Balzer, Schlömer, Deussen 2009, section 4: the points of two sites s and t are ordered by how much farther they are from
+s than from t, and the nearer half goes to s; then every site moves to the centroid of its points. As in the paper,
+pairs that cannot gain are left out: those in which neither site changed since their last turn, and those farther apart
+than the sum of their radii, the distances to their farthest points.
 """
 
 from __future__ import annotations
@@ -20,12 +20,14 @@ from samplekit_bluenoise.torus import sort_into_cells, wrapped
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    Array = NDArray[np.float64]
+
 _TOLERANCE = 1e-12
-"""Least gain of a swap, in units of 1 / N: rounding must not swap the same points for ever."""
+"""Smallest gain of a swap, in units of 1 / N: without it rounding could swap the same points for ever."""
 
 
 @helper
-def _move_to_centroid(s: int, sites: NDArray[np.float64], points: NDArray[np.float64]) -> None:
+def _move_to_centroid(s: int, sites: Array, points: Array) -> None:
     capacity = points.shape[1] // sites.shape[1]
     for d in range(2):
         x = sites[d, s]
@@ -37,8 +39,8 @@ def _move_to_centroid(s: int, sites: NDArray[np.float64], points: NDArray[np.flo
 
 
 @helper
-def _radius(s: int, sites: NDArray[np.float64], points: NDArray[np.float64]) -> float:
-    """The distance of the farthest point of site s."""
+def _radius(s: int, sites: Array, points: Array) -> float:
+    """Return the distance of the farthest point of site s."""
     capacity = points.shape[1] // sites.shape[1]
     farthest = 0.0
     for k in range(s * capacity, (s + 1) * capacity):
@@ -49,20 +51,13 @@ def _radius(s: int, sites: NDArray[np.float64], points: NDArray[np.float64]) -> 
 
 
 @helper
-def _swap(
-    s: int,
-    t: int,
-    sites: NDArray[np.float64],
-    points: NDArray[np.float64],
-    values: NDArray[np.float64],
-    room: NDArray[np.float64],
-) -> bool:
-    """Give the points of two sites to the one where they belong; return whether any changed hands.
+def _swap(s: int, t: int, sites: Array, points: Array, values: Array, room: Array) -> bool:
+    """Give each point of two sites to the site where it belongs; return whether any changed hands.
 
-    ``values`` float64[2, 2 capacity] and ``room`` float64[2, 2 capacity] are room to work in.
+    ``values`` float64[2, 2 capacity] and ``room`` float64[2, 2 capacity] are workspace.
     """
     capacity = points.shape[1] // sites.shape[1]
-    # How much farther each point is from s than from t: first those of s, then those of t.
+    # How much farther each point is from s than from t: first the points of s, then those of t.
     for half in range(2):
         first = (t if half else s) * capacity
         for k in range(capacity):
@@ -106,7 +101,7 @@ def _swap(
 
 
 @kernel("int64(float64[:,::1], float64[:,::1], int64)")
-def settle(sites: NDArray[np.float64], points: NDArray[np.float64], sweeps: int) -> int:
+def settle(sites: Array, points: Array, sweeps: int) -> int:
     """Swap points and move sites, in place, until a sweep over all pairs swaps nothing.
 
     Parameters
@@ -116,7 +111,7 @@ def settle(sites: NDArray[np.float64], points: NDArray[np.float64], sweeps: int)
     points
         float64[2, N * capacity]: those of site s begin at s * capacity.
     sweeps
-        The most sweeps.
+        Largest number of sweeps.
 
     Returns
     -------

@@ -1,9 +1,9 @@
-"""Territories: the first assignment of background points to sites, as many to each.
+"""Territories: the first assignment of background points to sites, equally many to each.
 
-The torus is cut open along two wavy lines, then cut in two by a straight line in a random direction, half of the sites
-on either side, and so on with each half. What is straight here lasts: sites settle in rows along it. Division along the
-axes ends on a square lattice, and a torus cut open along the sides of the square gave the two axes of the spectrum a
-third more power than the rest of its ring.
+The torus is cut open along two wavy lines, then cut in two by a straight line in a random direction, with half of the
+sites on either side; each half is cut again in the same way. Straight cuts leave traces, since sites settle in rows
+along them: division along the axes ended on a square lattice, and a torus cut open along the sides of the square gave
+the two axes of the spectrum a third more power than the rest of its ring.
 """
 
 from __future__ import annotations
@@ -17,13 +17,15 @@ from samplekit.kernels import hash_index, helper, kernel, second_key, unit
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    Array = NDArray[np.float64]
+
 _U64 = np.uint64
 _DEEPEST = 64
 
 
 @helper
-def select(values: NDArray[np.float64], points: NDArray[np.float64], low: int, high: int, place: int) -> None:
-    """Reorder ``values`` and columns of ``points``, ``low`` to ``high`` - 1: least before ``place`` (Hoare 1961)."""
+def select(values: Array, points: Array, low: int, high: int, place: int) -> None:
+    """Reorder ``values`` and ``points`` from ``low`` to ``high`` - 1, the smallest before ``place`` (Hoare 1961)."""
     while high - low > 1:
         pivot = values[(low + high) // 2]
         i = low
@@ -49,14 +51,14 @@ def select(values: NDArray[np.float64], points: NDArray[np.float64], low: int, h
 
 @helper
 def _wave(t: float) -> float:
-    """Much like a sine of period 1, from parabolas: a sine may differ between machines."""
+    """Return nearly a sine of period 1, made of parabolas, since the sine may differ between machines."""
     t -= np.floor(t)
     return 16.0 * t * (0.5 - t) if t < 0.5 else 16.0 * (t - 0.5) * (t - 1.0)
 
 
 @kernel("void(float64[:,::1], uint64)")
-def cut_open(points: NDArray[np.float64], key: np.uint64) -> None:
-    """Cut the torus open along two wavy lines: points of the square beyond a line move by 1, to the other side."""
+def cut_open(points: Array, key: np.uint64) -> None:
+    """Cut the torus open along two wavy lines: points beyond a line move by 1, to the other side of the square."""
     second = second_key(key)
     phase = np.empty(4)
     for k in range(4):
@@ -69,7 +71,7 @@ def cut_open(points: NDArray[np.float64], key: np.uint64) -> None:
 
 
 @kernel("void(float64[:,::1], int64, uint64)")
-def divide(points: NDArray[np.float64], sites: int, key: np.uint64) -> None:
+def divide(points: Array, sites: int, key: np.uint64) -> None:
     """Reorder the background points float64[2, sites * capacity]: those of site s begin at s * capacity."""
     capacity = points.shape[1] // sites
     values = np.empty(points.shape[1])
@@ -96,7 +98,7 @@ def divide(points: NDArray[np.float64], sites: int, key: np.uint64) -> None:
         high = (first + size) * capacity
         for k in range(low, high):
             values[k] = a * points[0, k] + b * points[1, k]
-        # Of an odd number either side may get one more.
+        # If the number is odd, a random side gets one more.
         half = (size + np.int64(bits & _U64(1))) // 2
         select(values, points, low, high, low + half * capacity)
         firsts[waiting] = first

@@ -1,7 +1,7 @@
-"""The unit torus: differences of coordinates, the densest packing, and where points may lie.
+"""The unit torus: differences of coordinates, the densest packing, and the coordinates of finished sets.
 
-Coordinates of finished sets are multiples of 2^-53 in [0, 1). Shifts by such multiples and reflections are then exact
-in float64: they move a set without changing a distance in its last bit.
+Coordinates of finished sets are multiples of 2^-53 in [0, 1). So reflections, and shifts by such multiples, are exact
+in float64: they move a set without changing the last bit of any distance.
 """
 
 from __future__ import annotations
@@ -16,37 +16,37 @@ from samplekit.kernels import helper, kernel, shuffle
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    Array = NDArray[np.float64]
+
 _GRID = 2.0**53
 _STEP = 2.0**-53
 
 
 def packing_distance(count: int) -> float:
-    """The distance between ``count`` points in the densest packing of the plane, hexagons: sqrt(2 / (sqrt(3) N))."""
+    """Return the distance of neighbours in the densest packing of N points per unit area: sqrt(2 / (sqrt(3) N))."""
     return math.sqrt(2.0 / (math.sqrt(3.0) * count))
 
 
 @helper
 def wrapped(difference: float) -> float:
-    """The shortest of the differences that are equal modulo 1, in [-1/2, 1/2]."""
+    """Return the shortest of the differences that are equal modulo 1, in [-1/2, 1/2]."""
     return float(difference - np.rint(difference))
 
 
 @helper
 def on_torus(x: float) -> float:
-    """``x`` modulo 1, rounded down to a multiple of 2^-53 in [0, 1)."""
+    """Return ``x`` modulo 1, rounded down to a multiple of 2^-53 in [0, 1)."""
     multiple = np.floor((x - np.floor(x)) * _GRID)
     # x - floor(x) is 1 for a tiny negative x.
     return (multiple if multiple < _GRID else 0.0) * _STEP
 
 
 @helper
-def sort_into_cells(
-    points: NDArray[np.float64], side: int, head: NDArray[np.int64], following: NDArray[np.int64]
-) -> None:
+def sort_into_cells(points: Array, side: int, head: NDArray[np.int64], following: NDArray[np.int64]) -> None:
     """Sort ``points`` float64[2, N] into a grid of ``side`` cells along each axis.
 
-    The points of cell (column, row) are a list that begins with head[row * side + column], goes on with ``following``
-    and ends with -1.
+    The points of cell (column, row) form a linked list: head[row * side + column] is the first, following[i] is the one
+    after i, and -1 ends the list.
     """
     head[: side * side] = -1
     for i in range(points.shape[1]):
@@ -56,7 +56,7 @@ def sort_into_cells(
 
 
 @kernel("void(float64[:,::1], float64[:,::1], uint64)")
-def finish(out: NDArray[np.float64], points: NDArray[np.float64], key: np.uint64) -> None:
+def finish(out: Array, points: Array, key: np.uint64) -> None:
     """Write ``points`` float64[2, N] to ``out`` float64[2, N] modulo 1, in a random order."""
     count = points.shape[1]
     place = np.empty(count, np.int64)

@@ -1,9 +1,9 @@
 """Voronoi cells on the torus, and the step of Lloyd's relaxation: every point moves to the centroid of its cell.
 
-A cell is the unit square round its point, cut along the bisectors with the points nearby, ring after ring of the
-cells of a grid, until the next ring is farther than twice the cell's radius. Images of the points in neighbouring
-copies of the torus count as points, so that any number of points has proper cells; that of a single point is the unit
-square.
+A Voronoi cell starts as the unit square around its point. It is cut along the bisectors with the points nearby, ring
+after ring of the cells of a grid, until the next ring is farther than twice the Voronoi cell's radius. The images of
+points in neighbouring copies of the torus count as points, so that any number of points has proper cells; the cell of a
+single point is the unit square.
 """
 
 from __future__ import annotations
@@ -19,15 +19,17 @@ from samplekit_bluenoise.torus import on_torus, sort_into_cells
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    Array = NDArray[np.float64]
+
 _MOST_CORNERS = 1024
-"""Room for the corners of a cell; among random points more than 20 are next to impossible."""
+"""Room for the corners of a cell; among random points more than 20 hardly ever occur."""
 
 
 @helper
-def _cut(corners: NDArray[np.float64], kept: NDArray[np.float64], size: int, x: float, y: float) -> int:
-    """Cut a convex polygon round the origin along the bisector with (x, y); return its new number of corners.
+def _cut(corners: Array, kept: Array, size: int, x: float, y: float) -> int:
+    """Cut a convex polygon around the origin along the bisector with (x, y); return its new number of corners.
 
-    The polygon is the first ``size`` of ``corners`` float64[K, 2]; ``kept`` is room (Sutherland, Hodgman 1974).
+    The polygon is the first ``size`` of ``corners`` float64[K, 2]; ``kept`` is workspace (Sutherland, Hodgman 1974).
     """
     half = 0.5 * (x * x + y * y)
     count = 0
@@ -51,8 +53,8 @@ def _cut(corners: NDArray[np.float64], kept: NDArray[np.float64], size: int, x: 
 
 
 @helper
-def _radius(corners: NDArray[np.float64], size: int) -> float:
-    """The square of the distance of the farthest corner."""
+def _radius(corners: Array, size: int) -> float:
+    """Return the square of the distance of the farthest corner."""
     largest = 0.0
     for k in range(size):
         largest = max(largest, corners[k, 0] ** 2 + corners[k, 1] ** 2)
@@ -61,13 +63,7 @@ def _radius(corners: NDArray[np.float64], size: int) -> float:
 
 @helper
 def _voronoi_cell(
-    p: int,
-    points: NDArray[np.float64],
-    side: int,
-    head: NDArray[np.int64],
-    following: NDArray[np.int64],
-    corners: NDArray[np.float64],
-    kept: NDArray[np.float64],
+    p: int, points: Array, side: int, head: NDArray[np.int64], following: NDArray[np.int64], corners: Array, kept: Array
 ) -> int:
     """Write the corners of the cell of point ``p``, relative to the point; return their number."""
     for k in range(4):
@@ -105,8 +101,8 @@ def _voronoi_cell(
 
 
 @kernel("void(float64[:,:,::1], int64)")
-def relax(sets: NDArray[np.float64], steps: int) -> None:
-    """Relax the sets float64[R, 2, N] in place."""
+def relax(sets: Array, steps: int) -> None:
+    """Relax the sets float64[R, 2, N] in place, ``steps`` times."""
     realizations, _, count = sets.shape
     side = max(1, int(math.sqrt(count)))
     moved = np.empty((2, count))

@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from samplekit_bluenoise.ccvt import steps_of_capacity
+from samplekit_bluenoise.ccvt import capacity_steps
 from samplekit_bluenoise.strata import scatter, split
 from samplekit_bluenoise.swaps import settle
 from samplekit_bluenoise.territories import cut_open, divide
@@ -91,7 +91,7 @@ def test_sites_are_the_centroids_of_their_points(count, capacity):
 
 
 def test_a_capacity_is_reached_by_factors_of_four():
-    assert [steps_of_capacity(c) for c in (1, 8, 31, 32, 97, 100, 256)] == [
+    assert [capacity_steps(c) for c in (1, 8, 31, 32, 97, 100, 256)] == [
         (1, 0), (8, 0), (31, 0), (8, 1), (97, 0), (25, 1), (16, 2)
     ]  # fmt: skip
 

@@ -1,4 +1,4 @@
-"""Lattices: the declarations. Nothing here imports NumPy; the samplers are imported when they are used."""
+"""The declarations of the lattices. Nothing here imports NumPy; a sampler is imported when it is first used."""
 
 from samplekit import (
     AnyCount,
@@ -15,7 +15,7 @@ from samplekit import (
 
 @hookimpl
 def samplekit_samplers() -> list[SamplerSpec]:
-    """The lattices."""
+    """Declare the lattices."""
     return [
         SamplerSpec(
             "r2",
@@ -42,7 +42,7 @@ def samplekit_samplers() -> list[SamplerSpec]:
             dimensions=(1, 250),
             progressive=PowersOf(2),
             largest_index=2**20 - 1,
-            # All components are odd, so that 2^m points are one in each interval of 2^-m, in any one dimension.
+            # All components are odd, so that in any one dimension 2^m points lie one in each interval of 2^-m.
             promises=(Net(dims=(0,)), Net(dims=(1,))),
         ),
         SamplerSpec(
@@ -52,7 +52,7 @@ def samplekit_samplers() -> list[SamplerSpec]:
             reference="Zaremba 1966",
             dimensions=(2, 2),
             counts=FibonacciNumbers(),
-            # Three points are 0.76 apart, two or more than three at least 0.86.
+            # Three points are 0.76 apart; two points, or more than three, at least 0.86.
             promises=(LatinStrata(), MinimumDistance(0.75)),
         ),
     ]

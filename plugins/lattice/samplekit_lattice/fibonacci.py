@@ -1,8 +1,8 @@
 """The Fibonacci lattice in 2D: N = F(k) points (i, i F(k-1)) / N, modulo 1.
 
-Zaremba 1966, "Good lattice points, discrepancy, and numerical integration": F(k) / F(k-1) are the fractions that tend
-to the golden ratio, the number that fractions approximate worst, and so the discrepancy is of order log N / N. A random
-shift is a number of whole steps of 1/N and a place within a step that all points share: the lattice stays exact.
+Zaremba 1966, "Good lattice points, discrepancy, and numerical integration". The fractions F(k) / F(k-1) tend to the
+golden ratio, which fractions approximate worst of all numbers, so the discrepancy is of order log N / N. The random
+shift is a number of whole steps of 1/N plus a place within a step that all points share: the lattice stays exact.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ def _fill(
     for d in range(dims):
         generator = generators[d]
         for i in range(multiples.size):
-            # Below 2^64, as all products here, for the count is at most 2^32.
+            # All products here are below 2^64, since the count is at most 2^32.
             multiples[i] = np.int64(_U64(i) * generator % modulus)
         for r in range(realizations):
             key = dimension_key(keys[r], d)
@@ -54,7 +54,7 @@ def _fill(
 
 
 class Fibonacci(Sampler):
-    """Fibonacci's lattice with the realisation's shift."""
+    """Fibonacci's lattice plus the realisation's random shift, modulo 1."""
 
     def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`samplekit.Sampler.fill`."""

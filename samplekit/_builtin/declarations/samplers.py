@@ -102,11 +102,11 @@ SAMPLERS = (
         "jittered in every pair (or triple) of dimensions, and Latin",
         reference="Jarosz, Enayet, Kensler, Kilpatrick, Christensen 2019; Bose 1938; Bush 1952",
         options=(
-            Option("strength", 2, "dimensions that are stratified together", 2, 3),
+            Option("strength", 2, "number of dimensions that are stratified together", 2, 3),
             Option(
                 "offset",
                 "correlated",
-                "places within strata",
+                "how places within strata are chosen",
                 choices=("jittered", "multi-jittered", "correlated"),
             ),
         ),
@@ -135,8 +135,8 @@ SAMPLERS = (
             Option(
                 "scramble",
                 "none",
-                "of digits, which ends the correlation of large bases: 256 points in 7907 and 7919 have 1.00 without,"
-                " a root mean square of 0.06 with digits and 0.07 with owen",
+                "how digits are scrambled, so that large bases are not correlated: 256 points in bases 7907 and 7919"
+                " have the correlation 1.00 without, 0.06 with digits and 0.07 with owen (root mean square)",
                 choices=("none", "digits", "owen"),
             ),
         ),
@@ -163,7 +163,7 @@ SAMPLERS = (
         _SAMPLERS + "faure:Faure",
         "digital sequence in a prime base with t = 0 in as many dimensions as the base",
         reference="Faure 1982",
-        options=(Option("base", 5, "a prime: as many dimensions at most, and good sets at its powers", 2, 1021),),
+        options=(Option("base", 5, "a prime, the largest number of dimensions; its powers are good counts", 2, 1021),),
         dimensions=(1, 5),
         progressive=PowersOf(5),
         randomized=False,
@@ -221,7 +221,7 @@ SAMPLERS = (
             Option(
                 "orders",
                 "matched",
-                "of the pixels: one in which nearby pixels complement each other along edges, or a random one",
+                "orders of the pixels: one in which nearby pixels complement each other along edges, or random ones",
                 choices=("matched", "random"),
             ),
         ),
@@ -241,7 +241,7 @@ SAMPLERS = (
             Option(
                 "path",
                 "",
-                "CSV, .npy, or text or .bin of UTK; without a comma, and without a plus sign before a letter",
+                "a CSV, .npy, or UTK text or .bin file; the path has no comma, and no plus sign before a letter",
                 required=True,
             ),
         ),

@@ -41,6 +41,8 @@ if TYPE_CHECKING:
 
     from samplekit import Realizations
 
+    Array = NDArray[np.float64]
+
 _U64 = np.uint64
 _U32 = np.uint32
 _TWO_P32 = 2.0**32
@@ -49,7 +51,7 @@ _CHUNK = 1024
 
 
 @helper
-def _scramble_binary(row: NDArray[np.float64], key: np.uint64) -> None:
+def _scramble_binary(row: Array, key: np.uint64) -> None:
     addend = owen_addend(key)
     factor = owen_factor(key)
     tail = owen_tail(key)
@@ -61,9 +63,7 @@ def _scramble_binary(row: NDArray[np.float64], key: np.uint64) -> None:
 
 
 @helper
-def _scramble_digits(
-    row: NDArray[np.float64], key: np.uint64, base: int, power: int, is_prime: bool, work: NDArray[np.float64]
-) -> None:
+def _scramble_digits(row: Array, key: np.uint64, base: int, power: int, is_prime: bool, work: Array) -> None:
     """Scramble at most ``work.shape[1]`` coordinates; ``work`` float64[4, K] is workspace."""
     rest, scrambled, digits, nodes = work
     second = second_key(key)
@@ -112,9 +112,7 @@ def _scramble_digits(
 
 
 @kernel("void(float64[:,:,::1], uint64[::1], int64[::1], boolean[::1])")
-def _apply(
-    points: NDArray[np.float64], keys: NDArray[np.uint64], bases: NDArray[np.int64], is_prime: NDArray[np.bool_]
-) -> None:
+def _apply(points: Array, keys: NDArray[np.uint64], bases: NDArray[np.int64], is_prime: NDArray[np.bool_]) -> None:
     realizations, dims, count = points.shape
     work = np.empty((4, min(count, _CHUNK)))
     for d in range(dims):
@@ -132,7 +130,7 @@ def _apply(
 class Owen(Randomizer):
     """Permutes each digit at random, in a way that depends on all digits before it: nets stay nets."""
 
-    def apply(self, points: NDArray[np.float64], realizations: Realizations, bases: tuple[int, ...]) -> None:
+    def apply(self, points: Array, realizations: Realizations, bases: tuple[int, ...]) -> None:
         """Scramble ``points`` in place; see :meth:`Randomizer.apply`."""
         is_prime = [all(base % divisor for divisor in range(2, math.isqrt(base) + 1)) for base in bases]
         _apply(points, realizations.keys, np.array(bases, np.int64), np.array(is_prime))

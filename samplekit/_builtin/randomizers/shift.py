@@ -18,11 +18,13 @@ if TYPE_CHECKING:
 
     from samplekit import Realizations
 
+    Array = NDArray[np.float64]
+
 _SHIFT = np.uint64(0x1F83D9ABFB41BD6B)
 
 
 @kernel("void(float64[:,:,::1], uint64[::1])")
-def _apply(points: NDArray[np.float64], keys: NDArray[np.uint64]) -> None:
+def _apply(points: Array, keys: NDArray[np.uint64]) -> None:
     realizations, dims, count = points.shape
     for r in range(realizations):
         for d in range(dims):
@@ -37,6 +39,6 @@ def _apply(points: NDArray[np.float64], keys: NDArray[np.uint64]) -> None:
 class Shift(Randomizer):
     """Adds a uniform random vector to every point, modulo 1."""
 
-    def apply(self, points: NDArray[np.float64], realizations: Realizations, bases: tuple[int, ...]) -> None:
+    def apply(self, points: Array, realizations: Realizations, bases: tuple[int, ...]) -> None:
         """Shift ``points`` in place; see :meth:`Randomizer.apply`."""
         _apply(points, realizations.keys)

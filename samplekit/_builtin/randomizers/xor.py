@@ -28,13 +28,15 @@ if TYPE_CHECKING:
 
     from samplekit import Realizations
 
+    Array = NDArray[np.float64]
+
 _U64 = np.uint64
 _TWO_P53 = 2.0**53
 _CHUNK = 1024
 
 
 @helper
-def _shift_digits(row: NDArray[np.float64], key: np.uint64, base: int, power: int, work: NDArray[np.float64]) -> None:
+def _shift_digits(row: Array, key: np.uint64, base: int, power: int, work: Array) -> None:
     """Shift at most ``work.shape[1]`` coordinates; ``work`` float64[2, K] is workspace."""
     rest, shifted = work
     b = np.float64(base)
@@ -64,7 +66,7 @@ def _shift_digits(row: NDArray[np.float64], key: np.uint64, base: int, power: in
 
 
 @kernel("void(float64[:,:,::1], uint64[::1], int64[::1])")
-def _apply(points: NDArray[np.float64], keys: NDArray[np.uint64], bases: NDArray[np.int64]) -> None:
+def _apply(points: Array, keys: NDArray[np.uint64], bases: NDArray[np.int64]) -> None:
     realizations, dims, count = points.shape
     work = np.empty((2, min(count, _CHUNK)))
     for d in range(dims):
@@ -85,6 +87,6 @@ def _apply(points: NDArray[np.float64], keys: NDArray[np.uint64], bases: NDArray
 class Xor(Randomizer):
     """Adds one random digit for each place, dimension and realisation: nets stay nets."""
 
-    def apply(self, points: NDArray[np.float64], realizations: Realizations, bases: tuple[int, ...]) -> None:
+    def apply(self, points: Array, realizations: Realizations, bases: tuple[int, ...]) -> None:
         """Shift the digits of ``points`` in place; see :meth:`Randomizer.apply`."""
         _apply(points, realizations.keys, np.array(bases, np.int64))

@@ -32,7 +32,8 @@ if TYPE_CHECKING:
 
     from samplekit import Realizations
 
-    Fill = Callable[[NDArray[np.float64], Realizations, int, int], None]
+    Array = NDArray[np.float64]
+    Fill = Callable[[Array, Realizations, int, int], None]
 
 _U32 = np.uint32
 _TABLE = 1024
@@ -72,7 +73,7 @@ def _reversed_coordinate(columns: NDArray[np.uint32], index: int) -> np.uint32:
 
 
 @kernel("void(float64[:,:,::1], uint32[:,::1], int64)")
-def _fill(out: NDArray[np.float64], columns: NDArray[np.uint32], start: int) -> None:
+def _fill(out: Array, columns: NDArray[np.uint32], start: int) -> None:
     """Write the points start, start + 1, ... of the first realisation."""
     _, dims, points = out.shape
     table = _reversed_table(columns, points)
@@ -91,9 +92,7 @@ def _fill(out: NDArray[np.float64], columns: NDArray[np.uint32], start: int) -> 
 
 
 @kernel("void(float64[:,:,::1], uint64[::1], uint32[:,::1], int64)")
-def _fill_scrambled(
-    out: NDArray[np.float64], keys: NDArray[np.uint64], columns: NDArray[np.uint32], start: int
-) -> None:
+def _fill_scrambled(out: Array, keys: NDArray[np.uint64], columns: NDArray[np.uint32], start: int) -> None:
     """Write the points start, start + 1, ... of every realisation under Owen's scrambling."""
     realizations, dims, points = out.shape
     table = _reversed_table(columns, points)
@@ -124,7 +123,7 @@ class DigitalSequence(Sampler):
         """Return the columns of the generator matrices, uint32[dims, 32]: column j for bit j, digit 1 its top bit."""
         raise NotImplementedError(f"{type(self).__name__} defines no columns")
 
-    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+    def fill(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`Sampler.fill`."""
         _fill(out, self.columns(out.shape[1]), start)
         out[1:] = out[0]
@@ -133,5 +132,5 @@ class DigitalSequence(Sampler):
         """Return the fill that applies Owen's scrambling to the integer coordinates."""
         return self._fill_owen if randomizer == "owen" else None
 
-    def _fill_owen(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+    def _fill_owen(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
         _fill_scrambled(out, realizations.keys, self.columns(out.shape[1]), start)

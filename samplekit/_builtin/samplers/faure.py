@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
     from samplekit import Realizations, SamplerSpec
 
+    Array = NDArray[np.float64]
+
 _NET_DIMS = (2, 5)
 """Dimensions of the nets that are declared; that of all dimensions has t = 0 as well."""
 _BASES = primes(172)
@@ -48,7 +50,7 @@ def _generator_matrices(base: int, dims: int) -> NDArray[np.int64]:
 
 
 @kernel("void(float64[:,:,::1], Array(int64, 3, 'C', readonly=True), int64, int64)")
-def _fill(out: NDArray[np.float64], matrices: NDArray[np.int64], base: int, start: int) -> None:
+def _fill(out: Array, matrices: NDArray[np.int64], base: int, start: int) -> None:
     """Write the points start, start + 1, ... of the first realisation."""
     _, dims, points = out.shape
     places = matrices.shape[1]
@@ -141,7 +143,7 @@ class Faure(Sampler):
             promises=tuple(Net(dims=tuple(range(dims)), base=self.base) for dims in sorted(nets)),
         )
 
-    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+    def fill(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`Sampler.fill`."""
         _fill(out, _generator_matrices(self.base, out.shape[1]), self.base, start)
         out[1:] = out[0]

@@ -30,12 +30,14 @@ if TYPE_CHECKING:
 
     from samplekit import Realizations
 
+    Array = NDArray[np.float64]
+
 _U64 = np.uint64
 _SHUFFLE = _U64(0x6A09E667F3BCC908)
 
 
 @kernel("void(float64[:,:,::1], uint64[::1], int64, int64)")
-def _fill(out: NDArray[np.float64], keys: NDArray[np.uint64], count: int, start: int) -> None:
+def _fill(out: Array, keys: NDArray[np.uint64], count: int, start: int) -> None:
     realizations, dims, points = out.shape
     place = np.empty(max(points, min(count, SHUFFLED)), np.int64)
     bits = offset_bits(count)
@@ -63,6 +65,6 @@ def _fill(out: NDArray[np.float64], keys: NDArray[np.uint64], count: int, start:
 class LatinHypercube(Sampler):
     """A random place in each of N intervals, in a random order of its own in each dimension."""
 
-    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+    def fill(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`Sampler.fill`."""
         _fill(out, realizations.keys, count, start)

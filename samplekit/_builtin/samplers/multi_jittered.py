@@ -34,6 +34,8 @@ if TYPE_CHECKING:
 
     from samplekit import Realizations
 
+    Array = NDArray[np.float64]
+
 _U64 = np.uint64
 _ORDER = _U64(0xBB67AE8584CAA73B)
 _LINES = _U64(0x3C6EF372FE94F82B)
@@ -45,13 +47,7 @@ _TABULATED = 1 << 16
 
 @kernel("void(float64[:,:,::1], uint64[::1], int64, int64, int64, int64, boolean)")
 def _fill(
-    out: NDArray[np.float64],
-    keys: NDArray[np.uint64],
-    columns: int,
-    rows: int,
-    count: int,
-    start: int,
-    correlated: bool,
+    out: Array, keys: NDArray[np.uint64], columns: int, rows: int, count: int, start: int, correlated: bool
 ) -> None:
     realizations, dims, whole = out.shape
     points = min(whole, _BLOCK)
@@ -122,7 +118,7 @@ class MultiJittered(Sampler):
 
     correlated = False
 
-    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+    def fill(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`Sampler.fill`."""
         sides = grid_sides(count, 2)
         if sides is None:

@@ -49,6 +49,8 @@ if TYPE_CHECKING:
 
     from samplekit import Realizations, SamplerSpec
 
+    Array = NDArray[np.float64]
+
 _U64 = np.uint64
 _ORDER = _U64(0x1F83D9ABFB41BD6B)
 _STRATA = _U64(0x5BE0CD19137E2179)
@@ -62,7 +64,7 @@ _TABULATED = 1 << 16
 
 
 @helper
-def _column(out: NDArray[np.float64], coefficients: NDArray[np.float64], column: int, s: float) -> None:
+def _column(out: Array, coefficients: Array, column: int, s: float) -> None:
     """Write the digits of a column: the polynomials at ``column`` modulo s, for column s their leading coefficients."""
     degree = coefficients.shape[0] - 1
     if column == s:
@@ -83,7 +85,7 @@ def _column(out: NDArray[np.float64], coefficients: NDArray[np.float64], column:
 
 @helper
 def _write_coefficients(
-    coefficients: NDArray[np.float64], order: NDArray[np.int64], base: float, count: int, start: int, key: np.uint64
+    coefficients: Array, order: NDArray[np.int64], base: float, count: int, start: int, key: np.uint64
 ) -> None:
     """Write the digits in base s of the places that start, start + 1, ... have in a random order of all points."""
     strength, whole = coefficients.shape
@@ -108,9 +110,7 @@ def _write_coefficients(
 
 
 @kernel("void(float64[:,:,::1], uint64[::1], int64, int64, int64, int64, int64)")
-def _fill(
-    out: NDArray[np.float64], keys: NDArray[np.uint64], s: int, strength: int, style: int, count: int, start: int
-) -> None:
+def _fill(out: Array, keys: NDArray[np.uint64], s: int, strength: int, style: int, count: int, start: int) -> None:
     realizations, dims, whole = out.shape
     points = min(whole, _BLOCK)
     sublines = count // s
@@ -214,7 +214,7 @@ class OrthogonalArraySampler(Sampler):
                 f" for {dims} dimensions it takes at least {enough} points"
             )
 
-    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+    def fill(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`Sampler.fill`."""
         s = _prime_root(count, self.strength)
         if not self.counts.allows(count, out.shape[1]) or out.shape[1] > s + 1:

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 
     from samplekit import Realizations
 
+    Array = NDArray[np.float64]
+
 
 @cache
 def _tables() -> NDArray[np.uint32]:
@@ -29,6 +31,6 @@ def _tables() -> NDArray[np.uint32]:
 class OwenSobol(Sampler):
     """Any number of dimensions; each block of four is scrambled and shuffled on its own."""
 
-    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+    def fill(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`Sampler.fill`."""
         fill_padded(out, realizations.keys, _tables(), start, 0)

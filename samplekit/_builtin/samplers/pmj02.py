@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 
     from samplekit import Realizations
 
+    Array = NDArray[np.float64]
+
 
 def pmj02_columns() -> NDArray[np.uint32]:
     """Return the columns of the generator matrices U and P U, where P is Pascal's matrix modulo 2: uint32[2, 32].
@@ -87,6 +89,6 @@ def _tables() -> NDArray[np.uint32]:
 class Pmj02(Sampler):
     """Pairs of dimensions: the first in the order of pmj02, the others shuffled so that prefixes stay nets."""
 
-    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+    def fill(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`Sampler.fill`."""
         fill_padded(out, realizations.keys, _tables(), start, 2)

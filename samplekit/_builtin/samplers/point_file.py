@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
     from samplekit import Realizations, SamplerSpec
 
+    Array = NDArray[np.float64]
+
 _GOLDEN = (1 + 5**0.5) / 2
 
 
@@ -89,7 +91,7 @@ class PointFile(Sampler):
         sets = "one set" if self.sets == 1 else f"{self.sets} sets"
         return f"{sets} of {self.count} points in {self.dims} dimensions"
 
-    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+    def fill(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`Sampler.fill`."""
         _, dims, points = out.shape
         self.check(count, dims, ())

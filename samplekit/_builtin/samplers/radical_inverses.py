@@ -27,7 +27,8 @@ if TYPE_CHECKING:
 
     from samplekit import Realizations, SamplerSpec
 
-    Fill = Callable[[NDArray[np.float64], Realizations, int, int], None]
+    Array = NDArray[np.float64]
+    Fill = Callable[[Array, Realizations, int, int], None]
 
 _SCRAMBLE = np.uint64(0x9159015A3070DD17)
 
@@ -35,7 +36,7 @@ _SCRAMBLE = np.uint64(0x9159015A3070DD17)
 class RadicalInverses(Sampler):
     """Base of the samplers that give the same points in every realisation unless a randomizer changes them."""
 
-    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+    def fill(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`Sampler.fill`."""
         fill_mirrored(out[:1], np.zeros(1, np.uint64), self._bases(out), start, PLAIN)
         out[1:] = out[0]
@@ -44,13 +45,13 @@ class RadicalInverses(Sampler):
         """Return the fill that makes shifted or scrambled points at once."""
         return {"xor": self._fill_shifted, "owen": self._fill_scrambled}.get(randomizer)
 
-    def _fill_shifted(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+    def _fill_shifted(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
         fill_mirrored(out, realizations.keys, self._bases(out), start, SHIFTED)
 
-    def _fill_scrambled(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+    def _fill_scrambled(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
         fill_nested(out, realizations.keys, self._bases(out), start)
 
-    def _bases(self, out: NDArray[np.float64]) -> NDArray[np.int64]:
+    def _bases(self, out: Array) -> NDArray[np.int64]:
         return np.array(self.bases(out.shape[1]), np.int64)
 
 
@@ -72,7 +73,7 @@ class Halton(RadicalInverses):
             return spec
         return replace(spec, randomized=True, unbiased=True, largest_index=2**32 - 1)
 
-    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+    def fill(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`Sampler.fill`."""
         if self._scramble == "none":
             super().fill(out, realizations, count, start)
@@ -126,7 +127,7 @@ class Hammersley(RadicalInverses):
     declared, since dimension 0 can be scrambled in one base only.
     """
 
-    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+    def fill(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`Sampler.fill`."""
         out[0, 0] = np.arange(start, start + out.shape[2]) / count
         bases = self._bases(out)[1:]

@@ -14,11 +14,13 @@ if TYPE_CHECKING:
 
     from samplekit import Realizations
 
+    Array = NDArray[np.float64]
+
 _U64 = np.uint64
 
 
 @kernel("void(float64[:,:,::1], uint64[::1], int64)")
-def _fill(out: NDArray[np.float64], keys: NDArray[np.uint64], start: int) -> None:
+def _fill(out: Array, keys: NDArray[np.uint64], start: int) -> None:
     realizations, dims, points = out.shape
     for r in range(realizations):
         for d in range(dims):
@@ -32,6 +34,6 @@ def _fill(out: NDArray[np.float64], keys: NDArray[np.uint64], start: int) -> Non
 class Random(Sampler):
     """Counter-based random points: point i is a hash of (seed, realisation, dimension, i)."""
 
-    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+    def fill(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`Sampler.fill`."""
         _fill(out, realizations.keys, start)

@@ -52,6 +52,8 @@ if TYPE_CHECKING:
 
     from samplekit import Realizations
 
+    Array = NDArray[np.float64]
+
 _U32 = np.uint32
 _U64 = np.uint64
 _TILE = _U64(0x47B5481DBEFA4FA4)
@@ -74,7 +76,7 @@ def _pascal(v: np.uint32) -> np.uint32:
 
 
 @helper
-def _scramble(row: NDArray[np.float64], digits: NDArray[np.uint32], beyond: np.uint32, key: np.uint64) -> None:
+def _scramble(row: Array, digits: NDArray[np.uint32], beyond: np.uint32, key: np.uint64) -> None:
     """Owen-scramble coordinates: ``digits`` are the first 32, ``beyond`` those after them; the first is in bit 0."""
     addend = owen_addend(key)
     factor = owen_factor(key)
@@ -85,13 +87,7 @@ def _scramble(row: NDArray[np.float64], digits: NDArray[np.uint32], beyond: np.u
 
 @kernel("void(float64[:,:,::1], int64[::1], int64[::1], uint64, boolean, int64, int64)")
 def _fill(
-    out: NDArray[np.float64],
-    xs: NDArray[np.int64],
-    ys: NDArray[np.int64],
-    seed: np.uint64,
-    matched: bool,
-    bits: int,
-    start: int,
+    out: Array, xs: NDArray[np.int64], ys: NDArray[np.int64], seed: np.uint64, matched: bool, bits: int, start: int
 ) -> None:
     realizations, dims, points = out.shape
     within = (1 << TILE_LEVELS) - 1
@@ -145,7 +141,7 @@ class ZSobol(Sampler):
     def __init__(self, orders: str = "matched") -> None:
         self._matched = orders == "matched"
 
-    def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
+    def fill(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`Sampler.fill`."""
         seed = seed_word(realizations.seed) ^ _TILE
         _fill(out, realizations.x, realizations.y, seed, self._matched, count.bit_length() - 1, start)
