@@ -45,10 +45,10 @@ class Plan:
 
     @property
     def file_stem(self) -> str:
-        """Name of the files of the rendering, without an ending; a crop has a name of its own."""
+        """Name of the rendering's files without an ending, as `check_stem` takes it; a crop has its own name."""
         pixels = self.pixels
         crop = "" if pixels.window == (0, 0, *pixels.size) else "-crop-" + "-".join(map(str, pixels.window))
-        return f"{pixels.scene.text}-{self.sampler.text}-{self.count}spp{crop}".replace(":", "-").replace("/", "-")
+        return f"{pixels.scene.text}-{self.sampler.text}-{self.count}spp{crop}"
 
     def explain(self) -> list[str]:
         """Say what is done and what is left out, one line each."""

@@ -147,10 +147,10 @@ class Rendering:
         SamplekitError
             A file cannot be written.
         """
-        from samplekit.files import check_stem, write_rendering
+        from samplekit.files import RENDERING_ENDINGS, check_stem, write_rendering
 
         pixels = self.plan.pixels
-        stem = check_stem(os.fspath(output), self.plan.file_stem)
+        stem = check_stem(os.fspath(output), self.plan.file_stem, RENDERING_ENDINGS)
         window = (*pixels.window[:2], *pixels.size)
         files = write_rendering(
             stem, self.image, self.reference, self.error, self.describe(), window=window, scale=scale
@@ -233,9 +233,9 @@ def render(
         reference=error,
     )
     if output is not None:
-        from samplekit.files import check_stem
+        from samplekit.files import RENDERING_ENDINGS, check_stem
 
-        check_stem(os.fspath(output), plan.file_stem)
+        check_stem(os.fspath(output), plan.file_stem, RENDERING_ENDINGS)
     if explain is not None:
         for line in plan.explain():
             explain(line)

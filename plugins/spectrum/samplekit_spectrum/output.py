@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from samplekit import UsageError
-from samplekit.files import check_targets, parts_writer, shown, text_writer, write_group
+from samplekit.files import parts_writer, text_writer, write_stem
 from samplekit.plots import figure_writer
 from samplekit_spectrum.frequencies import Cube, Listed
 from samplekit_spectrum.map_display import MapDisplay
@@ -17,6 +15,7 @@ from samplekit_spectrum.tables import listed_csv, radial_csv
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from pathlib import Path
 
     from samplekit.files import Writer
     from samplekit.plots import Display
@@ -25,38 +24,6 @@ if TYPE_CHECKING:
 
 MAPS = (".exr", ".png")
 RADIAL = (".radial.csv", ".radial.png", ".radial.svg")
-
-
-def check_stem(output: str, name: str, endings: Sequence[str]) -> Path:
-    """Find the stem of the files, and check that they can be written before any work is done.
-
-    Parameters
-    ----------
-    output
-        A folder, ``STEM.exr``, or nothing for the current folder.
-    name
-        Last part of the stem in a folder.
-    endings
-        Of the files.
-
-    Raises
-    ------
-    UsageError
-        Neither a folder nor ``STEM.exr``, or files that cannot be written there.
-    """
-    path = Path(output)
-    try:
-        is_folder = path.is_dir()
-    except (OSError, ValueError) as error:
-        raise UsageError(f"cannot write to {shown(path)}: {error}") from None
-    if is_folder:
-        stem = path / name.replace(":", "-").replace("/", "-")
-    elif path.suffix == ".exr" and not output.endswith(("/", "\\")):
-        stem = path.with_suffix("")
-    else:
-        raise UsageError(f"cannot write to {shown(path)}: it is neither a folder that exists nor ends in .exr")
-    check_targets([_named(stem, ending) for ending in endings])
-    return stem
 
 
 def endings(dims: int, spectra: int, *, listed: bool) -> tuple[str, ...]:
@@ -71,7 +38,7 @@ def write_spectra(stem: Path, spectra: Sequence[Spectrum], metadata: dict[str, A
     """Write the files of the projections of the same sets."""
     first = spectra[0]
     if isinstance(first.frequencies, Listed):
-        return _write({".csv": text_writer([listed_csv(spectra)])}, stem)
+        return write_stem(stem, {".csv": text_writer([listed_csv(spectra)])})
     cube = first.frequencies
     writers: dict[str, Writer] = {".exr": parts_writer(_parts(spectra), metadata)}
     if cube.dims > 1:
@@ -80,7 +47,7 @@ def write_spectra(stem: Path, spectra: Sequence[Spectrum], metadata: dict[str, A
     writers[".radial.csv"] = text_writer([radial_csv(spectra)])
     if len(spectra) == 1:
         _add_pictures(writers, RadialDisplay.from_spectrum(first), metadata, RADIAL[1:])
-    return _write(writers, stem)
+    return write_stem(stem, writers)
 
 
 def write_error_spectrum(stem: Path, spectrum: ErrorSpectrum, metadata: dict[str, Any], name: str) -> list[Path]:
@@ -91,13 +58,7 @@ def write_error_spectrum(stem: Path, spectrum: ErrorSpectrum, metadata: dict[str
     _add_pictures(writers, MapDisplay.from_error(spectrum, title), metadata, [".png"])
     writers[".radial.csv"] = text_writer([radial_csv([spectrum])])
     _add_pictures(writers, RadialDisplay.from_error(spectrum, title), metadata, RADIAL[1:])
-    return _write(writers, stem)
-
-
-def _write(writers: dict[str, Writer], stem: Path) -> list[Path]:
-    items = [(_named(stem, ending), writer) for ending, writer in writers.items()]
-    write_group(items)
-    return [path for path, _ in items]
+    return write_stem(stem, writers)
 
 
 def _add_pictures(
@@ -122,8 +83,3 @@ def _parts(spectra: Sequence[Spectrum]) -> dict[str, Any]:
             else:
                 parts[name + suffix] = np.atleast_2d(values)
     return parts
-
-
-def _named(stem: Path, ending: str) -> Path:
-    # Not with_suffix: a stem may have a dot of its own.
-    return stem.parent / (stem.name + ending)

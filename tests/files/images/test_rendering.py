@@ -6,7 +6,7 @@ from samplekit._errors import SamplekitError, UsageError
 from samplekit.files._images.exr import read_parts
 from samplekit.files._images.info import read_info
 from samplekit.files._images.png import encode_srgb, read_png
-from samplekit.files._images.rendering import check_stem, write_rendering
+from samplekit.files._images.rendering import write_rendering
 
 NAMES = ["a.error.png", "a.exr", "a.png"]
 
@@ -124,24 +124,3 @@ def test_same_input_same_bytes(tmp_path, rendering):
         write_rendering(tmp_path / name, *rendering, {"seed": "1"})
     for ending in (".exr", ".png", ".error.png"):
         assert (tmp_path / f"a{ending}").read_bytes() == (tmp_path / f"b{ending}").read_bytes()
-
-
-def test_stems(tmp_path, monkeypatch):
-    (tmp_path / "folder.exr").mkdir()
-    assert check_stem(str(tmp_path), "name") == tmp_path / "name"
-    assert check_stem(str(tmp_path / "folder.exr"), "name") == tmp_path / "folder.exr" / "name"
-    assert check_stem(str(tmp_path / "k0.5.exr"), "name") == tmp_path / "k0.5"
-    monkeypatch.chdir(tmp_path)
-    assert check_stem("", "name-k0.5").resolve() == tmp_path.resolve() / "name-k0.5"
-    assert listed(tmp_path) == ["folder.exr"]
-
-
-def test_stems_that_cannot_be(tmp_path):
-    (tmp_path / "file").touch()
-    (tmp_path / "a.png").mkdir()
-    for output in ("none", "none/", "none.exr/", "none/a.exr", "file", "file/a.exr", "a.exr", "a.png/b.jpg", "nul\0"):
-        with pytest.raises(UsageError) as caught:
-            check_stem(f"{tmp_path}/{output}", "name")
-        assert "\n" not in str(caught.value)
-    with pytest.raises(UsageError):
-        check_stem(str(tmp_path), "n" * 300)

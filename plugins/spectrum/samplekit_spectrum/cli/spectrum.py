@@ -88,10 +88,11 @@ def spectrum(
 
     import samplekit
     from samplekit.commands import Progress, parse_count, parse_seed
+    from samplekit.files import check_stem
     from samplekit_spectrum.cli.values import parse_positive, parse_projections, parse_vectors
     from samplekit_spectrum.frequencies import Listed
     from samplekit_spectrum.homogenized import homogenized
-    from samplekit_spectrum.output import check_stem, endings, write_spectra
+    from samplekit_spectrum.output import endings, write_spectra
     from samplekit_spectrum.spectrum import powers
     from samplekit_spectrum.tables import spectrum_json, spectrum_lines
 
@@ -197,8 +198,9 @@ def _of_image(image: str, output: str, as_json: bool) -> int:
     from pathlib import Path
 
     from samplekit import versions
+    from samplekit.files import check_stem
     from samplekit_spectrum.error_image import error_spectrum, read_error
-    from samplekit_spectrum.output import MAPS, RADIAL, check_stem, write_error_spectrum
+    from samplekit_spectrum.output import MAPS, RADIAL, write_error_spectrum
     from samplekit_spectrum.tables import error_lines, finite, radial_json
 
     path = Path(image)
