@@ -16,7 +16,9 @@ Rows = dict[str, list[str]]
 
 
 def choose(kind: str, text: str) -> Chosen:
-    """What is written ``text``: its name, its declaration, its plugin. Imports no implementation for a plain name.
+    """Find a sampler, scene or randomizer by its text: its name, declaration and plugin.
+
+    A plain name imports no implementation.
 
     Raises
     ------

@@ -26,12 +26,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Violation:
-    """Where a set breaks a promise: what :meth:`Promise.find_violation` returns. ``str`` says it in one line.
+    """The place where a set breaks a promise, as :meth:`Promise.find_violation` returns it. ``str`` gives one line.
 
     Attributes
     ----------
     message
-        What is wrong, in one line.
+        The violation in one line.
     realization
         Index of the set.
     points

@@ -1,1 +1,1 @@
-"""Whether estimates are right where scenes are stiff and requests extreme; and where not, why."""
+"""Stability: test if estimates are right where scenes are stiff and requests extreme, and explain where not."""

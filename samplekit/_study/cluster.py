@@ -72,7 +72,7 @@ class Cluster:
         Parameters
         ----------
         jobs
-            What is done.
+            The jobs to carry out.
         tick
             Called with the number of samples of each job that ends.
 

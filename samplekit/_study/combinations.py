@@ -35,7 +35,7 @@ class Combination:
     trials
         Number of independent realisations.
     notes
-        What a reader of the row should know.
+        Remarks on the row, each in a sentence.
     shared_draw
         Whether one draw of the largest count has this set as its prefix, so that several counts share it.
     """

@@ -32,7 +32,7 @@ def in_processes(jobs: Sequence[Job], processes: int, tick: Callable[[int], None
     Parameters
     ----------
     jobs, processes
-        What is done, and the number of processes.
+        The jobs to carry out, and the number of processes.
     tick
         Called with the number of samples of each job that ends.
 

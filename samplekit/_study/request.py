@@ -1,4 +1,4 @@
-"""What a user asks of a study: the request, which decides all errors, and the options, which change none of them."""
+"""The request for a study, which decides all errors, and its options, which change none of them."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class Request:
 
     @property
     def one_pixel(self) -> bool:
-        """Whether the unit square is one pixel."""
+        """True if the unit square is one pixel."""
         return self.size == UNIT_SQUARE
 
     def command(self, *more: str) -> str:

@@ -143,7 +143,7 @@ class Row:
     fitted, left_out
         Whether the fit uses this row, and why not.
     notes
-        What a reader should know, each in a sentence: an error of exactly zero, an error below that of the reference,
+        Remarks on the row, each in a sentence: an error of exactly zero, an error below that of the reference,
         sets from a bank, ...
     pictures
         Image files of the first trial; None for one pixel.

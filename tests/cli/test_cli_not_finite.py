@@ -1,4 +1,4 @@
-"""Values that are not finite, through every command: counted, shown, told by the exit status, never in JSON.
+"""Values that are not finite, through every command: counted, shown, with an exit status of their own, never in JSON.
 
 Unscrambled Sobol points begin at the origin, where a power is infinite.
 """

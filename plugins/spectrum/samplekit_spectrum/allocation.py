@@ -42,7 +42,7 @@ class Stratum:
     Attributes
     ----------
     number
-        Of the stratum: no two have a set in common.
+        Number of the stratum. No two strata have a set in common.
     regions, moments
         The regions, and what is known of each.
     """

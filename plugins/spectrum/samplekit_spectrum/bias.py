@@ -1,4 +1,4 @@
-"""Whether a sampler is unbiased, that is whether the mean of S(m) is zero at every integer m but 0.
+"""The test for bias: an unbiased sampler has a mean of S(m) of zero at every integer m except 0.
 
 The mean of an estimate is the sum of f(m) conj E S(m): it is the integral for every integrand if and only if E S(m) = 0
 for all m other than 0 (Subr, Kautz 2013). Between the integers E S(m) is then the transform of the unit square.

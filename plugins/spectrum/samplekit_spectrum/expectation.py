@@ -42,7 +42,7 @@ class View:
 
 @dataclass
 class _Work:
-    """What the threads share."""
+    """State that the threads share."""
 
     stop: threading.Event
     lock: threading.Lock

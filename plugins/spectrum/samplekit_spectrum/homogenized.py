@@ -51,7 +51,7 @@ class _Reshifted(ConfiguredSampler):
 
 
 def is_homogeneous(sampler: ConfiguredSampler) -> bool:
-    """Whether every shift of the sampler's sets is as likely: independent points, and what has just been shifted."""
+    """Return whether all shifts of a set are equally likely: for independent points, and after a random shift."""
     return sampler.text.endswith("+shift") or (sampler.text == "random" and sampler.plugin.builtin)
 
 

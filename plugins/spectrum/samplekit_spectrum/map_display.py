@@ -106,7 +106,7 @@ class MapDisplay(Display):
         Parameters
         ----------
         spectra
-            Of the same sets: one, or all pairs of dimensions as a lower triangle.
+            One spectrum, or those of all pairs of dimensions of the same sets, drawn as a lower triangle.
         scale
             N times the power that is drawn white; None: 2.
         """

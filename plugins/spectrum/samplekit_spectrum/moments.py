@@ -110,12 +110,12 @@ class Moments:
 
     @property
     def standard_error(self) -> NDArray[np.float64]:
-        """Of the mean power at each frequency, float64[half]; NaN with a single realisation."""
+        """Standard error of the mean power at each frequency, float64[half]; NaN with a single realisation."""
         return _standard_error(self.squares, self.realizations)
 
     @property
     def ring_standard_error(self) -> NDArray[np.float64]:
-        """Of each ring's mean; NaN with a single realisation."""
+        """Standard error of the mean power of each ring, float64[rings]; NaN with a single realisation."""
         return _standard_error(self.ring_squares, self.realizations)
 
 

@@ -81,7 +81,8 @@ def predict(
     realizations
         Sets in the expected spectrum; None: as many as make the prediction's standard error 0.45 %.
     max_frequency
-        Of the square; None: 16 sqrt N, at least 128, at most 512, or 1024 for sets that all have the same power.
+        Largest frequency of the square; None: 16 sqrt N, at least 128, at most 512, or 1024 for sets that all have
+        the same power.
     native
         Measure without the shift as well.
     seed, threads, progress

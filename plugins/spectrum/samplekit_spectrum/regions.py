@@ -38,7 +38,7 @@ class Region:
     Attributes
     ----------
     view
-        What is transformed.
+        The projection and the frequencies at which sets are transformed.
     weights
         float64[half].
     inner

@@ -1,4 +1,4 @@
-"""What a spectrum is asked of: projections and frequencies, checked before anything is made."""
+"""The request for a spectrum: its projections and frequencies, checked before any work is done."""
 
 from __future__ import annotations
 

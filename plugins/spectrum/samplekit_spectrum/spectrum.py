@@ -68,7 +68,7 @@ class Spectrum:
 
     @property
     def interrupted(self) -> bool:
-        """Whether realisations that were asked for are missing."""
+        """True if the request was for more realisations than were made."""
         return self.realizations < self.requested
 
     @property
@@ -78,7 +78,7 @@ class Spectrum:
 
     @property
     def standard_error(self) -> NDArray[np.float64]:
-        """Of ``mean``: 0 for a sampler that is not random, NaN for a single realisation of one that is."""
+        """Standard error of ``mean``: 0 for a deterministic sampler, NaN for one realisation of a random one."""
         errors = self._moments.standard_error if self.randomized else np.zeros(self.frequencies.half)
         return self._shaped(errors)
 

@@ -74,7 +74,7 @@ def listed_html(spectrum: Spectrum) -> str:
 
 
 def spectrum_lines(spectrum: Spectrum) -> list[str]:
-    """What a terminal shows of a spectrum."""
+    """Return the lines that the terminal shows of a spectrum."""
     lines = []
     if len(spectrum.project) != spectrum.dims:
         lines.append("projection on " + ", ".join(f"x{axis}" for axis in spectrum.project))
@@ -106,7 +106,7 @@ def spectrum_lines(spectrum: Spectrum) -> list[str]:
 
 
 def error_lines(spectrum: ErrorSpectrum) -> list[str]:
-    """What a terminal shows of an error image's spectrum."""
+    """Return the lines that the terminal shows of an error image's spectrum."""
     lines = [f"  {'verdict':<16}{spectrum.verdict}"]
     if spectrum.verdict != "exact":
         low = f"{spectrum.low:.4g} +- {spectrum.low_standard_error:.2g} of the mean power, below 1/8 a pixel"

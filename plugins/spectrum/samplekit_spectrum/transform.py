@@ -68,7 +68,7 @@ def slabs(cube: Cube) -> list[Slab]:
 
 
 def few_points(cube: Cube, count: int) -> bool:
-    """Whether matrix products are faster than the non-uniform FFT, for each set of ``count`` points."""
+    """Return whether matrix products are faster than the non-uniform FFT, for each set of ``count`` points."""
     return _by_products_seconds(cube, count) < _nufft_seconds(cube, count)
 
 

@@ -70,7 +70,7 @@ class Predicted:
 
 
 def has_fixed_power(sampler: ConfiguredSampler) -> bool:
-    """Whether all its sets have the same |S|: it is not random, but for a shift."""
+    """Return whether all sets have the same |S|: the sampler is deterministic, apart from a shift."""
     if not sampler.spec.randomized:
         return True
     return (
@@ -192,6 +192,6 @@ def _beyond(source: Source, pairs: list[tuple[Region, Moments]], *, fixed: bool)
 
 
 def _at_most_white(sampler: ConfiguredSampler) -> bool:
-    """Whether N E|S(m)|^2 <= 1 is known at every frequency: independent points, and one in each cell of a grid."""
+    """Return whether N E|S(m)|^2 <= 1 everywhere is known: for independent points, and for one in each grid cell."""
     plain = sampler.text.removesuffix("+shift")
     return sampler.plugin.name == "samplekit" and plain in ("random", "jittered")

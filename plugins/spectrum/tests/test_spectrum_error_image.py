@@ -1,4 +1,4 @@
-"""White, blue and red errors are told apart; unequal pixels alone raise no alarm."""
+"""White, blue and red errors are distinguished; unequal pixels alone raise no alarm."""
 
 import numpy as np
 import pytest

@@ -183,7 +183,7 @@ def test_wrong_settings_are_refused_before_anything_is_printed(setting, capsys):
 
 
 def test_the_standard_error_of_a_variance():
-    """Of a normal sample sqrt(2 / T) of it; of a coin with equal sides nearly none."""
+    """It is sqrt(2 / T) of the variance for a normal sample, and nearly 0 for a coin with equal sides."""
     rng = np.random.default_rng(3)
     normal = summarize(rng.normal(size=100_000), 0.0)
     assert normal.standard_error == pytest.approx(math.sqrt(2 / 100_000) * normal.variance, rel=0.02)

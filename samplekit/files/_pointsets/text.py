@@ -1,4 +1,4 @@
-"""Points from text: our own CSV, plain columns, and the text of UTK, told apart by what is in them.
+"""Points from text: our own CSV, plain columns, and the text of UTK, distinguished by their contents.
 
 A line a point, its coordinates separated by commas or by spaces. Our own CSV begins with the header
 ``realisation,index,x0,...``; another first line without numbers is a header too, and skipped. A line that begins with

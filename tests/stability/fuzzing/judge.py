@@ -132,12 +132,12 @@ def _read(path: Path) -> None:
 
 
 def _promised(words: list[str], answer: Answer, folder: Path) -> list[str]:
-    """What is told and not there: files, numbers of points, points that are others'."""
+    """List what a report names and is not there: files, numbers of points, points of another sampler."""
     if "--json" not in words or not words or "--help" in words or "-h" in words or "--version" in words:
         return []
     report = json.loads(answer.out)
     # In names that are no text, JSON has what Python has.
-    wrong = [f"{name} is told, and not there" for name in report.get("files", []) if not (folder / name).exists()]
+    wrong = [f"{name} is reported, and not there" for name in report.get("files", []) if not (folder / name).exists()]
     if report["schema"].startswith("samplekit.points"):
         wrong += _points(report, folder)
     if report["schema"].startswith("samplekit.render") and not report["files"]:

@@ -53,8 +53,8 @@ def predict(
 ) -> int:
     """Predict the variance of estimates from the spectra of sampler and scene, and measure it.
 
-    Of the sampler followed by a random shift: for no other is the prediction exact. The native variance, without the
-    shift, stands beside it.
+    The prediction is exact only for a sampler that a random shift follows, so it is made for that. The variance of the
+    sampler without the shift (native) stands beside it.
 
     Example: samplekit predict --sampler jittered --scene disk --count 4^2..4^5
     """

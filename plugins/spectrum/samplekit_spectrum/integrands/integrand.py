@@ -1,4 +1,4 @@
-"""What is known of an integrand's power spectrum."""
+"""An integrand's power spectrum, its mean and its energy."""
 
 from __future__ import annotations
 
@@ -43,5 +43,5 @@ class Integrand:
 
     @property
     def variance(self) -> float:
-        """Of a single random sample: the sum of |f(m)|^2 over all m other than 0."""
+        """Variance of the estimate from one random sample: the sum of |f(m)|^2 over all m other than 0."""
         return max(self.energy - self.mean**2, 0.0)
