@@ -11,7 +11,7 @@ import signal
 import time
 from typing import TYPE_CHECKING, NamedTuple
 
-from fuzzing.files import STUDY, numbers
+from fuzzing.files import BANK, STUDY, numbers
 from fuzzing.judge import Answer, judge, tree
 from samplekit._cli import run
 from samplekit.commands import _notices as notices
@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 
 ALARM, HANG = 8, 60
 """Seconds until a request is interrupted as by its user, and until a process that does not answer ends."""
+
+COMPILED = 55
+"""Seconds that a valid request may take while the folder is made: its first run compiles kernels."""
 
 
 class Verdict(NamedTuple):
@@ -46,9 +49,11 @@ class Doors:
         for place in ("folder", "out"):
             (self._kept / place).mkdir()
         for name in ("a.csv", "b.plain.csv", "c.npy", "d.dat", "e.bin", "points.svg"):
-            assert self._run(["points", "-s", "jittered", "-n", "16", "-o", name]).status == 0
-        assert self._run(["render", "-s", "random", "-n", "4", "--size", "8", "-o", "image.exr"]).status == 0
-        assert self._run([*STUDY.split(), "--output", "out/study"]).status == 0
+            self._make(["points", "-s", "jittered", "-n", "16", "-o", name])
+        for name in BANK:
+            self._make(["points", "-s", name, "-n", "9"])
+        self._make(["render", "-s", "random", "-n", "4", "--size", "8", "-o", "image.exr"])
+        self._make([*STUDY.split(), "--output", "out/study"])
         self.study_file = (self._kept / "out" / "study" / "study.sqlite").read_bytes()
         self.study = numbers(self._run([*STUDY.split(), "--output", "out/study", "--resume", "--json"]).out)
         shutil.rmtree(self._kept / "out" / "study")
@@ -78,12 +83,16 @@ class Doors:
             self.anew()
         return Verdict(answer, wrong, seconds)
 
-    def _run(self, words: list[str]) -> Answer:
+    def _make(self, words: list[str]) -> None:
+        answer = self._run(words, COMPILED)
+        assert answer.status == 0, answer
+
+    def _run(self, words: list[str], alarm: int = ALARM) -> Answer:
         # As the system gives them to a process: never with a null, which ends a word.
         out, err = (io.TextIOWrapper(io.BytesIO(), "utf-8", "backslashreplace", write_through=True) for _ in range(2))
         faulthandler.dump_traceback_later(HANG, exit=True)
         previous = signal.signal(signal.SIGALRM, lambda *_: os.kill(os.getpid(), signal.SIGINT))
-        signal.alarm(ALARM)
+        signal.alarm(alarm)
         try:
             with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
                 try:
