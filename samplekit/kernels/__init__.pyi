@@ -8,6 +8,7 @@ from ._digital_net import BITS as BITS
 from ._digital_net import net_coordinates as net_coordinates
 from ._digits import DIGITS_LIMIT as DIGITS_LIMIT
 from ._digits import fraction as fraction
+from ._digits import largest as largest
 from ._digits import numerator as numerator
 from ._digits import tail_digits as tail_digits
 from ._direction import direction as direction

@@ -14,7 +14,7 @@ import inspect
 import os
 import threading
 import types
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
@@ -58,7 +58,7 @@ def kernel(signature: str) -> Callable[[Function], Function]:
         if config.DISABLE_JIT:
             return np.errstate(over="ignore")(function)
         source = cast("types.FunctionType", function)
-        dispatcher = numba.njit(nogil=True, error_model="numpy")(source)
+        dispatcher = numba.njit(nogil=True, error_model="numpy", no_cfunc_wrapper=True)(source)
         dispatcher.declared_signature = signature
         # Numba calls this where a dispatcher has no machine code for the arguments.
         dispatcher._compile_for_args = functools.partial(_compile_at_first_call, dispatcher)  # noqa: SLF001 - see above
@@ -79,7 +79,42 @@ def helper(function: Function) -> Function:
     >>> square(3)
     9
     """
-    return cast("Function", numba.njit(inline="always", error_model="numpy")(function))
+    return cast("Function", _Helper(function))
+
+
+class _Helper:
+    """A function that LLVM inlines in kernels, and that numba compiles as it is for a call from Python.
+
+    LLVM inlines, because numba (with inline="always") infers the types of the body again at every call. The version for
+    kernels has no entry for Python or C: they would take longer to compile than the function.
+    """
+
+    def __init__(self, function: Callable[..., Any]) -> None:
+        functools.update_wrapper(self, function)
+        self.py_func = function
+        self._inlined = numba.njit(
+            forceinline=True, error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True
+        )(function)
+        self._find_for_kinds = self._inlined.get_call_template
+        self._inlined.get_call_template = self._find_template
+
+    def __call__(self, *arguments: Any, **keywords: Any) -> Any:
+        return self._callable(*arguments, **keywords)
+
+    @property
+    def _numba_type_(self) -> Any:
+        """What numba takes for the helper where a kernel calls it."""
+        return self._inlined._numba_type_
+
+    @functools.cached_property
+    def _callable(self) -> Callable[..., Any]:
+        return cast("Callable[..., Any]", numba.njit(error_model="numpy")(self.py_func))
+
+    def _find_template(self, arguments: Iterable[Any], keywords: Mapping[str, Any]) -> Any:
+        # One version serves all values of a literal argument.
+        unliteral = cast("Any", numba_types).unliteral
+        kinds = {name: unliteral(kind) for name, kind in keywords.items()}
+        return self._find_for_kinds(tuple(map(unliteral, arguments)), kinds)
 
 
 def _compile_at_first_call(dispatcher: Any, *arguments: Any, **_: Any) -> Any:
@@ -160,7 +195,7 @@ def _used(function: types.FunctionType, seen: dict[int, object]) -> Iterator[obj
             continue
         seen[id(value)] = value
         yield value
-        inner = value.py_func if isinstance(value, Dispatcher) else value
+        inner = value.py_func if isinstance(value, (Dispatcher, _Helper)) else value
         if isinstance(inner, types.FunctionType):
             yield from _used(inner, seen)
 
@@ -175,7 +210,7 @@ def _names(code: types.CodeType) -> Iterator[str]:
 
 def _content(value: object) -> bytes:
     """Return what a kernel is compiled from where it uses the value."""
-    inner = value.py_func if isinstance(value, Dispatcher) else value
+    inner = value.py_func if isinstance(value, (Dispatcher, _Helper)) else value
     if isinstance(inner, types.FunctionType):
         # The whole file: what numba puts in the place of a function stands beside it.
         return _source(inspect.getfile(inner))

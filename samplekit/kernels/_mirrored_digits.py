@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit.kernels._compile import helper, kernel, reverse_bits32
-from samplekit.kernels._digits import DIGITS_LIMIT, tail_digits
+from samplekit.kernels._digits import DIGITS_LIMIT, largest, tail_digits
 from samplekit.kernels._hashing import TWO_M32, TWO_M53, below, dimension_key, hash_index, mix64, second_key, unit
 from samplekit.kernels._radical_inverse import largest_power
 
@@ -80,8 +80,11 @@ def fill_mirrored(
     """
     realizations, dims, points = out.shape
     last = start + points - 1
-    table = np.empty(min(max(TABLE, bases.max()), last + 1))
-    order = np.arange(bases.max())
+    largest_base = largest(bases)
+    table = np.empty(min(max(TABLE, largest_base), last + 1))
+    order = np.empty(largest_base, np.int64)
+    for c in range(largest_base):
+        order[c] = c
     for d in range(dims):
         base = bases[d]
         if base == 2 and mode != PLAIN:

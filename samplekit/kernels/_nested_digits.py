@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit.kernels._compile import helper, kernel
-from samplekit.kernels._digits import DIGITS_LIMIT, tail_digits
+from samplekit.kernels._digits import DIGITS_LIMIT, largest, tail_digits
 from samplekit.kernels._hashing import GOLDEN, TWO_M32, hash_index, mix64, second_key, unit
 from samplekit.kernels._mirrored_digits import TABLE, table_size
 from samplekit.kernels._owen import owen_addend, owen_factor, owen_key, owen_tail, scramble_reversed, tail_value
@@ -92,7 +92,7 @@ def fill_nested(out: NDArray[np.float64], keys: NDArray[np.uint64], bases: NDArr
     """Write the radical inverses of start, start + 1, ... below 2^32 in the prime ``bases``, scrambled."""
     realizations, dims, points = out.shape
     last = start + points - 1
-    table = np.empty(min(max(TABLE, bases.max()), last + 1))
+    table = np.empty(min(max(TABLE, largest(bases)), last + 1))
     block_points = np.empty(table.size)
     for d in range(dims):
         base = bases[d]

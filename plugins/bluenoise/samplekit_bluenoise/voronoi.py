@@ -48,7 +48,9 @@ def _cut(corners: Array, kept: Array, size: int, x: float, y: float) -> int:
             count += 1
         last = k
         before = beyond
-    corners[:count] = kept[:count]
+    for k in range(count):
+        corners[k, 0] = kept[k, 0]
+        corners[k, 1] = kept[k, 1]
     return count
 
 
@@ -129,4 +131,7 @@ def relax(sets: Array, steps: int) -> None:
                     last = k
                 moved[0, p] = on_torus(points[0, p] + moment_x / (3.0 * area))
                 moved[1, p] = on_torus(points[1, p] + moment_y / (3.0 * area))
-            points[:] = moved
+            # A loop: numba takes seconds to compile the assignment of an array.
+            for p in range(count):
+                points[0, p] = moved[0, p]
+                points[1, p] = moved[1, p]

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit.kernels import helper, kernel
+from samplekit.kernels import helper, kernel, largest
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -114,8 +114,8 @@ def constant_pixels(x: Array, y: Array, front: Array, ring: Array, wall: Array, 
             for edge in range(2):
                 side = _side(x0, x1, y0, y1, ring[0], ring[1], ring[2 + edge], abs(confusion[1]))
                 of_block[front.shape[0] + edge] = side
-                blurred |= side == 2 and of_block[: front.shape[0]].max() != 1
-            in_front, inner, outer = of_block[: front.shape[0]].max(), of_block[-2], of_block[-1]
+                blurred |= side == 2 and largest(of_block[: front.shape[0]]) != 1
+            in_front, inner, outer = largest(of_block[: front.shape[0]]), of_block[-2], of_block[-1]
             if in_front == -1 and (inner == 1 or outer == -1):
                 reach = abs(confusion[2])
                 blurred |= _is_near_line(x0, x1, reach, wall) or _is_near_line(y0, y1, reach, wall)
@@ -126,5 +126,6 @@ def constant_pixels(x: Array, y: Array, front: Array, ring: Array, wall: Array, 
                 for i in range(left, right):
                     out[j, i] = value
                     if math.isnan(value) and not blurred:
-                        of_pixel[:] = of_block
+                        for k in range(of_block.size):
+                            of_pixel[k] = of_block[k]
                         out[j, i] = _shown(x[i], x[i + 1], y[j], y[j + 1], front, ring, wall, confusion, of_pixel)
