@@ -144,7 +144,7 @@ def every_sampler(spp: int) -> Figure:
     figure, axes = pixel_grid(4, 6, 144, f"The zone plate under every sampler, {words} a pixel", lines)
     for name, panel in zip(ZONEPLATE_SAMPLERS, axes.flat, strict=True):
         rule = samplekit.sampler(name).spec.counts
-        count = next((count for count in range(spp, 0, -1) if samplekit.allows(rule, count, 2)), None)
+        count = next((count for count in range(spp, 0, -1) if rule.allows(count, 2)), None)
         if count is None:
             panel.set_facecolor("0.93")
             label(panel, name, f"no set of {spp} or fewer")
@@ -172,7 +172,7 @@ def plate(name: str) -> Figure:
     shown = spectrum.normalized
     shown[MAX_FREQUENCY, MAX_FREQUENCY] = 0.0
     image.imshow(shown, cmap="gray", vmin=0.0, vmax=2.0, interpolation="nearest")
-    sets = f"mean of {REALIZATIONS} sets" if randomized else "one set: it is not random"
+    sets = f"mean of {REALIZATIONS} sets" if randomized else "one fixed set"
     label(image, f"N times the power, {sets}", f"frequencies to {MAX_FREQUENCY}; white: 2 and more")
     chart.axhline(1.0, color="0.5", linewidth=0.8, linestyle="--")
     chart.plot(spectrum.radial.frequency, COUNT * spectrum.radial.power)
@@ -180,22 +180,4 @@ def plate(name: str) -> Figure:
     chart.spines[:].set_visible(True)
     label(chart, "radial mean; dashed: white noise")
     chart.set_xlabel("frequency")
-    return figure
-
-
-def convergence(results: samplekit.Results, against: str = "samples") -> Figure:
-    """Plot the mean squared error of the study's first scene against samples, or against time."""
-    figure, axes = plt.subplots(figsize=(8.6, 5.6), layout="constrained")
-    (scene,) = results.scenes
-    for sampler in results.samplers:
-        rows = [row for row in results.rows if row.sampler == sampler and row.mse.estimate]
-        fit = next((fit for fit in results.fits if fit.sampler == sampler), None)
-        exponent = f"  $N^{{{fit.slope.estimate:.2f}}}$" if fit and fit.slope.estimate is not None else ""
-        across = [row.count if against == "samples" else row.time for row in rows]
-        axes.plot(across, [row.mse.estimate for row in rows], "o-", markersize=4, label=sampler + exponent)
-    seconds = "seconds" if results.size == (1, 1) else "seconds for an image"
-    axes.set(xscale="log", yscale="log", xlabel=against if against == "samples" else seconds)
-    axes.set(ylabel="mean squared error", title=f"{scene}: error against {against}, {results.trials} trials")
-    axes.grid(color="0.9")
-    figure.legend(loc="outside right upper")
     return figure

@@ -7,11 +7,11 @@ The worst case. Stratified samplers fall as N^-1.5, random ones as N^-1.
     samplekit compare -s random -s jittered -s latin-hypercube -s correlated-multi-jittered -s halton+owen -s sobol+owen -s pmj02 --scene disk --spp 2^2..2^12 --trials 1000 --size 1 --no-time
 """
 
-from _shared import convergence, save
+from _shared import save
 
 import samplekit
 
 SAMPLERS = ("random", "jittered", "latin-hypercube", "correlated-multi-jittered", "halton+owen", "sobol+owen", "pmj02")
 
 results = samplekit.compare(SAMPLERS, "disk", [2**m for m in range(2, 13)], trials=1000, size=(1, 1), times=False)
-save(convergence(results), __file__)
+save(results.plot().figure_, __file__)

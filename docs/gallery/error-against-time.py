@@ -7,7 +7,7 @@ The scene costs next to nothing here, so what a sampler's points cost matters: `
     samplekit compare -s random -s jittered -s latin-hypercube -s correlated-multi-jittered -s halton+owen -s sobol+owen -s pmj02 -s poisson-disk --scene zoneplate:k=100 --spp 4^1..4^5 --trials 4 --size 64 --budget 20
 """
 
-from _shared import convergence, save
+from _shared import save
 
 import samplekit
 
@@ -24,4 +24,4 @@ SAMPLERS = (
 
 counts = [4**m for m in range(1, 6)]
 results = samplekit.compare(SAMPLERS, "zoneplate:k=100", counts, trials=4, size=(64, 64), budget=20.0)
-save(convergence(results, against="time"), __file__)
+save(results.plot(against="time").figure_, __file__)

@@ -7,10 +7,10 @@ On a Gaussian, Poisson disk is ahead at low counts, jitter at high ones.
     samplekit compare -s jittered -s poisson-disk --scene gaussian --spp 4^1..4^6 --trials 400 --size 1 --no-time
 """
 
-from _shared import convergence, save
+from _shared import save
 
 import samplekit
 
 counts = [4**m for m in range(1, 7)]
 results = samplekit.compare(["jittered", "poisson-disk"], "gaussian", counts, trials=400, size=(1, 1), times=False)
-save(convergence(results), __file__)
+save(results.plot().figure_, __file__)
