@@ -29,10 +29,13 @@ for sampler in SAMPLERS:
         row += [f"{fit.theory:g}", f"{slope.estimate:.2f}  ({slope.low:.2f} to {slope.high:.2f})"]
     rows.append(row)
 
-figure, axes = plt.subplots(figsize=(7.4, 2.6), layout="constrained")
+figure, axes = plt.subplots(figsize=(8.6, 2.6), layout="constrained")
 axes.set_axis_off()
 axes.set_title("Exponents of the mean squared error: N = 16 to 512, 400 trials")
 header = [f"{scene}: {what}" for scene in SCENES for what in ("theory", "measured, 95 %")]
 table = axes.table(rows, rowLabels=SAMPLERS, colLabels=header, cellLoc="left", loc="center", edges="horizontal")
+table.auto_set_font_size(False)
+table.set_fontsize(9)
+table.auto_set_column_width(list(range(len(header))))
 table.scale(1.0, 2.0)
 save(figure, __file__)

@@ -37,6 +37,6 @@ for sampler, (above, below) in zip(SAMPLERS, axes.T, strict=True):
     label(below, "", f"mse {mse:.2e}, blurred {blurred:.1e}: {spectrum.verdict}")
     chart.plot(spectrum.radial.frequency, spectrum.radial.power, label=sampler)
 label(chart, "power of the error, mean over rings")
-chart.set(xlim=(0.0, 0.5), ylim=(0.0, 2.2), xlabel="cycles per pixel")
-chart.legend(loc="upper left")
+chart.set(xlim=(0.0, 0.5), ylim=(1e-3, 1e2), yscale="log", xlabel="cycles per pixel")
+chart.legend(loc="lower right")
 save(figure, __file__)

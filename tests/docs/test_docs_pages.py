@@ -52,3 +52,11 @@ def test_tables_are_those_of_the_declarations(page):
     text = (ROOT / page).read_text(encoding="utf-8")
     assert "<!-- table: samplers -->" in text
     assert tables.filled(text) == text, "run: python docs/hooks/tables.py"
+
+
+@pytest.mark.parametrize("page", [page for page in PAGES if page != "CONTRIBUTING.md"])
+def test_page_names_public_modules_only_and_files_that_exist(page):
+    text = (ROOT / page).read_text(encoding="utf-8")
+    assert not re.findall(r"\bsamplekit(?:\.\w+)*\._[a-z]\w*", text)
+    for path in re.findall(r"`((?:samplekit|plugins|benchmarks|docs|tests)/[\w./-]+)`", text):
+        assert (ROOT / path).exists(), path
