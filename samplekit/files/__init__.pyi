@@ -2,14 +2,14 @@ from ._cache import cache_folder as cache_folder
 from ._cache import cached_array as cached_array
 from ._images.exr import parts_writer as parts_writer
 from ._images.exr import read_parts as read_parts
-from ._images.info import read_info as read_info
 from ._images.png import png_writer as png_writer
 from ._images.png import read_png as read_png
 from ._images.png import write_png as write_png
+from ._images.reading import read_info as read_info
 from ._images.rendering import RENDERING_ENDINGS as RENDERING_ENDINGS
 from ._images.rendering import write_rendering as write_rendering
-from ._pointsets.csv import csv_text as csv_text
 from ._pointsets.read import read_points as read_points
+from ._pointsets.csv import csv_text as csv_text
 from ._pointsets.write import write_points as write_points
 from ._stem import check_stem as check_stem
 from ._stem import write_stem as write_stem

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from samplekit._errors import UsageError
-from samplekit.files._writing import Writer, check_targets, shown, write_group
+from samplekit.files._writing import Writer, check_targets, reason_of, shown, write_group
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -38,8 +38,7 @@ def check_stem(output: str, name: str, endings: Sequence[str]) -> Path:
     try:
         is_folder = path.is_dir()
     except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else error
-        raise UsageError(f"cannot write to {shown(path)}: {reason}") from None
+        raise UsageError(f"cannot write to {shown(path)}: {reason_of(error)}") from None
     if is_folder:
         stem = path / name.replace(":", "-").replace("/", "-")
     elif path.suffix == ".exr" and not output.endswith(("/", "\\")):

@@ -44,14 +44,14 @@ def write_group(items: Sequence[tuple[Path, Writer]]) -> None:
     SamplekitError
         The writing failed; every path holds what it held before.
     """
-    targets = check_targets([path for path, _ in items])
-    temporaries: list[Path] = []
+    paths = [path for path, _ in items]
+    targets = check_targets(paths)
+    # Names of a length of their own: a target's may already be as long as the file system allows.
+    temporaries = [target.with_name(f".samplekit-{secrets.token_hex(8)}{target.suffix[:16]}") for target in targets]
     try:
-        for target, (path, writer) in zip(targets, items, strict=True):
-            temporary = _temporary(target)
-            temporaries.append(temporary)
+        for temporary, (path, writer) in zip(temporaries, items, strict=True):
             _write(temporary, path, writer)
-        _rename(temporaries, targets, [path for path, _ in items])
+        _rename(temporaries, targets, paths)
     finally:
         for temporary in temporaries:
             with contextlib.suppress(OSError):
@@ -79,47 +79,51 @@ def shown(path: Path) -> str:
     return text if text.isprintable() else repr(text)
 
 
+def reason_of(error: Exception) -> str:
+    """Return why something failed, on one line: the system's words where it was the system."""
+    text = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+    return " ".join(text.split())
+
+
 def _target(path: Path) -> Path:
     """Find the file behind the path, and check it before any work is done."""
     try:
         target = Path(os.path.realpath(path))
-        folder = target.parent
-        if not folder.is_dir():
-            what = "is not a folder" if folder.exists() else "does not exist"
-            raise UsageError(f"cannot write {shown(path)}: {shown(path.parent)} {what}")
-        if not os.access(folder, os.W_OK):
-            raise UsageError(f"cannot write {shown(path)}: the folder {shown(path.parent)} is write-protected")
-        try:
-            mode = target.stat().st_mode
-        except FileNotFoundError:
-            return target
+        obstacle = _obstacle(target, shown(path.parent))
     except (OSError, ValueError) as error:
-        raise UsageError(f"cannot write {shown(path)}: {_reason(error)}") from None
-    if stat.S_ISDIR(mode):
-        raise UsageError(f"cannot write {shown(path)}: it is a folder")
-    if not stat.S_ISREG(mode):
-        # Renaming onto a device would replace the device.
-        raise UsageError(f"cannot write {shown(path)}: it is not a regular file")
-    if not os.access(target, os.W_OK):
-        # Renaming asks for the folder's permission only, and would walk over the file's.
-        raise UsageError(f"cannot write {shown(path)}: it is write-protected")
+        obstacle = reason_of(error)
+    if obstacle:
+        raise UsageError(f"cannot write {shown(path)}: {obstacle}")
     return target
 
 
-def _temporary(target: Path) -> Path:
-    # A name of its own length: the target's may already be as long as the file system allows.
-    ending = target.suffix if target.suffix.isascii() and len(target.suffix) <= 16 else ""
-    return target.with_name(f".samplekit-{secrets.token_hex(8)}{ending}")
+def _obstacle(target: Path, folder: str) -> str:
+    """Say why the file cannot be written; ``folder`` is its folder as the user named it. Empty: it can."""
+    if not target.parent.is_dir():
+        return f"{folder} {'is not a folder' if target.parent.exists() else 'does not exist'}"
+    if not os.access(target.parent, os.W_OK):
+        return f"the folder {folder} is write-protected"
+    try:
+        mode = target.stat().st_mode
+    except FileNotFoundError:
+        return ""
+    if stat.S_ISDIR(mode):
+        return "it is a folder"
+    if not stat.S_ISREG(mode):
+        # Renaming onto a device would replace the device.
+        return "it is not a regular file"
+    # Renaming needs the folder's permission only, and would replace a file that is write-protected.
+    return "" if os.access(target, os.W_OK) else "it is write-protected"
 
 
 def _write(temporary: Path, path: Path, writer: Writer) -> None:
     try:
         # Created here, with the mode that the user's umask leaves; the libraries then write into it.
-        os.close(os.open(temporary, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
+        temporary.touch(exist_ok=False)
         writer(temporary)
         _flush(temporary)
     except (OSError, SamplekitError) as error:
-        reason = _reason(error).replace(str(temporary), path.name)
+        reason = reason_of(error).replace(str(temporary), path.name)
         if isinstance(error, SamplekitError) and _is_full(temporary.parent):
             reason = f"no space left on the disk ({reason})"
         raise SamplekitError(f"cannot write {shown(path)}: {reason}") from None
@@ -141,12 +145,7 @@ def _rename(temporaries: Sequence[Path], targets: Sequence[Path], paths: Sequenc
             temporary.replace(target)
         except OSError as error:
             new = "; new already: " + ", ".join(shown(path) for path in paths[:index]) if index else ""
-            raise SamplekitError(f"cannot write {shown(paths[index])}: {_reason(error)}{new}") from None
-
-
-def _reason(error: Exception) -> str:
-    text = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
-    return " ".join(text.split())
+            raise SamplekitError(f"cannot write {shown(paths[index])}: {reason_of(error)}{new}") from None
 
 
 def _is_full(folder: Path) -> bool:
@@ -161,7 +160,7 @@ def text_writer(pieces: Iterable[str]) -> Writer:
     return data_writer(piece.encode() for piece in pieces)
 
 
-def data_writer(pieces: Iterable[bytes]) -> Writer:
+def data_writer(pieces: Iterable[bytes | memoryview]) -> Writer:
     """Make a writer of bytes; the pieces are taken one at a time."""
 
     def write(temporary: Path) -> None:

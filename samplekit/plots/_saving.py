@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from samplekit._errors import UsageError
-from samplekit.files._images.metadata import encode
+from samplekit.files._images.metadata import encode_metadata
 from samplekit.files._writing import data_writer, write_group
 from samplekit.plots._style import style
 
@@ -81,7 +81,7 @@ def figure_writer(figure: Figure, ending: str, metadata: Mapping[str, Any] | Non
     """
     if ending.lower() not in ENDINGS:
         raise UsageError(f"a figure is written to a name that ends in .png, .svg or .pdf, not {ending!r}")
-    text = encode(metadata or {})
+    text = encode_metadata(metadata or {})
     if ending.lower() == ".png":
         from samplekit.files._images.png import png_writer
 
