@@ -9,7 +9,7 @@ from ._images.reading import read_info as read_info
 from ._images.rendering import RENDERING_ENDINGS as RENDERING_ENDINGS
 from ._images.rendering import write_rendering as write_rendering
 from ._pointsets.read import read_points as read_points
-from ._pointsets.csv import csv_text as csv_text
+from ._pointsets.text import csv_text as csv_text
 from ._pointsets.write import write_points as write_points
 from ._stem import check_stem as check_stem
 from ._stem import write_stem as write_stem

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from samplekit._errors import UsageError
-from samplekit.files._pointsets.grids import describe_grids, grid_of
 from samplekit.plots._display import Display
+from samplekit.plots._grids import describe_grids, grid_of
 from samplekit.plots._style import SMALL_SIZE, make_axes, style
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from samplekit._configured.sampler import ConfiguredSampler
     from samplekit._specs import Promise
-    from samplekit.files._pointsets.grids import Grid
+    from samplekit.plots._grids import Grid
 
 MOST_DIMS = 16
 LINES_UP_TO = 64

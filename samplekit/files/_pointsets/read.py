@@ -9,9 +9,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit._errors import SamplekitError, UsageError
+from samplekit._errors import UsageError
+from samplekit.files._pointsets.npy import read_npy
+from samplekit.files._pointsets.text import read_text
+from samplekit.files._pointsets.utk_binary import read_utk_binary
 from samplekit.files._pointsets.write import PICTURES
-from samplekit.files._writing import shown
+from samplekit.files._reading import errors_naming
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -34,42 +37,24 @@ def read_points(path: Path) -> NDArray[np.float64]:
     Raises
     ------
     UsageError
-        No such file, a folder, a file of another kind; values outside [0, 1) or NaN; rows of different lengths.
+        There is no such file, or it is a folder or of another kind; values are outside [0, 1) or NaN; rows differ in
+        length.
     SamplekitError
         The file is damaged.
     """
-    try:
-        if path.exists() and not path.is_file():  # opening a pipe would wait for its writer
-            raise UsageError("it is a folder" if path.is_dir() else "it is not a regular file")
+    with errors_naming(path):
         points = _read(path)
         if points.size == 0:
             raise UsageError("it holds no points")
         _check_values(points)
-    except (OSError, ValueError) as error:
-        reason = (isinstance(error, OSError) and error.strerror) or str(error)
-        raise UsageError(f"cannot read {shown(path)}: {reason}") from None
-    except MemoryError:
-        raise SamplekitError(f"cannot read {shown(path)}: no memory for so many points") from None
-    except SamplekitError as error:
-        raise type(error)(f"cannot read {shown(path)}: {error}") from None
-    return points
+        return points
 
 
 def _read(path: Path) -> NDArray[np.float64]:
     ending = path.suffix.lower()
-    if ending == ".npy":
-        from samplekit.files._pointsets.npy import read_npy
-
-        return read_npy(path)
-    if ending == ".bin":
-        from samplekit.files._pointsets.utk_binary import read_utk_binary
-
-        return read_utk_binary(path)
     if ending in PICTURES:
         raise UsageError("a picture does not hold the numbers of its points: expected .npy, .bin, or numbers as text")
-    from samplekit.files._pointsets.text import read_text
-
-    return read_text(path)
+    return {".npy": read_npy, ".bin": read_utk_binary}.get(ending, read_text)(path)
 
 
 def _check_values(points: NDArray[np.float64]) -> None:

@@ -7,7 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit._errors import UsageError
-from samplekit.files._writing import shown, write_group
+from samplekit.files._pointsets.npy import npy_writer
+from samplekit.files._pointsets.text import csv_text, plain_csv_text, utk_text
+from samplekit.files._pointsets.utk_binary import utk_binary_writer
+from samplekit.files._writing import shown, text_writer, write_group
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -24,12 +27,12 @@ PICTURES = (".svg", ".png", ".pdf")
 
 
 def check_path(path: Path, realizations: int) -> str:
-    """Return the ending of the path in lower case, once it is known that such points fit into such a file.
+    """Return the ending of the path in lower case, and check that such a file holds so many realisations.
 
     Raises
     ------
     UsageError
-        No ending of a file of points or of a picture, or several realisations where there is room for one.
+        The ending is none of points or of pictures, or the file holds one realisation and there are several.
     """
     ending = path.suffix.lower()
     if path.name.lower().endswith(PLAIN) and len(path.name) > len(PLAIN):
@@ -63,7 +66,7 @@ def write_points(
     Raises
     ------
     UsageError
-        An unknown ending, or points that such a file cannot hold; a path that cannot be written to.
+        The ending is unknown, such a file cannot hold the points, or the path cannot be written to.
     SamplekitError
         The writing failed.
     """
@@ -77,21 +80,9 @@ def write_points(
 
 
 def _writer(ending: str, points: NDArray[np.float64], progress: Callable[[int, int], None]) -> Writer:
-    # Each format imports its own: a table of numbers needs no other library.
     if ending == ".npy":
-        from samplekit.files._pointsets.npy import npy_writer
-
         return npy_writer(points)
     if ending == ".bin":
-        from samplekit.files._pointsets.utk_binary import utk_binary_writer
-
         return utk_binary_writer(points)
-    from samplekit.files._writing import text_writer
-
-    if ending == ".dat":
-        from samplekit.files._pointsets.utk_text import utk_text
-
-        return text_writer(utk_text(points, progress))
-    from samplekit.files._pointsets.csv import csv_text, plain_csv_text
-
-    return text_writer(csv_text(points, progress) if ending == ".csv" else plain_csv_text(points[0], progress))
+    text = {".csv": csv_text, PLAIN: plain_csv_text, ".dat": utk_text}[ending]
+    return text_writer(text(points, progress))

@@ -62,7 +62,7 @@ def test_a_failure_half_way_leaves_the_old_file(tmp_path, monkeypatch):
         yield "new, "
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("samplekit.files._pointsets.csv.csv_text", failing)
+    monkeypatch.setattr("samplekit.files._pointsets.write.csv_text", failing)
     with pytest.raises(SamplekitError, match="No space left"):
         write(path)
     assert path.read_text() == "old"
