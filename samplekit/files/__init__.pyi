@@ -8,13 +8,13 @@ from ._images.png import write_png as write_png
 from ._images.reading import read_info as read_info
 from ._images.rendering import RENDERING_ENDINGS as RENDERING_ENDINGS
 from ._images.rendering import write_rendering as write_rendering
-from ._pointsets.read import read_points as read_points
+from ._pointsets.formats import read_points as read_points
+from ._pointsets.formats import write_points as write_points
 from ._pointsets.text import csv_text as csv_text
-from ._pointsets.write import write_points as write_points
-from ._stem import check_stem as check_stem
-from ._stem import write_stem as write_stem
 from ._writing import Writer as Writer
+from ._writing import check_stem as check_stem
 from ._writing import check_targets as check_targets
 from ._writing import shown as shown
 from ._writing import text_writer as text_writer
 from ._writing import write_group as write_group
+from ._writing import write_stem as write_stem

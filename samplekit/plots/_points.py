@@ -58,7 +58,7 @@ class PointsDisplay(Display):
     Raises
     ------
     UsageError
-        More than 16 dimensions, or values outside [0, 1].
+        There are more than 16 dimensions, or values outside [0, 1].
 
     Examples
     --------
@@ -156,11 +156,16 @@ class PointsDisplay(Display):
         count, dims = self.points.shape
         self.choose_axes(ax, axes, len(self.pairs), self._new_axes)
         for panel, pair in zip(self.axes_, self.pairs, strict=True):
-            grid = grid_of(self.promises, count, dims, pair)
+            side = panel.bbox.width * 72 / panel.figure.dpi
+            _draw_grid(panel, grid_of(self.promises, count, dims, pair), side, len(pair))
             if dims == 1:
-                self._draw_strip(panel, grid)
+                self._draw_strip(panel, side)
             else:
-                self._draw_square(panel, pair, grid)
+                self._draw_square(panel, pair, side)
+            panel.xaxis.set_label_position("top")
+            panel.xaxis.tick_top()
+            panel.tick_params(which="major", length=0.0, pad=5.0, labelsize=SMALL_SIZE)
+            panel.tick_params(which="minor", length=3.0, width=_TICK[1], color=_TICK[0])
         return self
 
     def _new_axes(self) -> tuple[Figure, list[Axes]]:
@@ -182,9 +187,7 @@ class PointsDisplay(Display):
     def _label(self, dimension: int) -> str:
         return f"$x_{{{self._names[dimension]}}}$"
 
-    def _draw_square(self, ax: Axes, pair: tuple[int, ...], grid: Grid) -> None:
-        side = ax.bbox.width * 72 / ax.figure.dpi
-        _draw_grid(ax, grid, side, 2)
+    def _draw_square(self, ax: Axes, pair: tuple[int, ...], side: float) -> None:
         spacing = side / len(self.points) ** 0.5
         size = 2.0 * min(max(0.18 * spacing, 0.25), max(side / 100, 1.0))
         x, y = self.points[:, pair].T
@@ -196,19 +199,15 @@ class PointsDisplay(Display):
             ax.set_xlabel(self._label(pair[0]), labelpad=3.5 if several else -4.0)
         if not several or pair[0] == 0:
             ax.set_ylabel(self._label(pair[1]), rotation=0.0, va="center", labelpad=8.0 if several else 4.0)
-        ax.set_xticks([] if several else [0.0, 1.0], None if several else ["0", "1"])
-        ax.set_yticks([] if several else [0.0, 1.0], None if several else ["0", "1"])
-        _label_above(ax)
+        for set_ticks in (ax.set_xticks, ax.set_yticks):
+            set_ticks([] if several else [0.0, 1.0], None if several else ["0", "1"])
 
-    def _draw_strip(self, ax: Axes, grid: Grid) -> None:
-        side = ax.bbox.width * 72 / ax.figure.dpi
-        _draw_grid(ax, grid, side, 1)
+    def _draw_strip(self, ax: Axes, side: float) -> None:
         width = min(max(0.3 * side / len(self.points), 0.3), 1.4)
         ax.vlines(self.points[:, 0], 0.0, 0.75, _POINT, linewidths=width, clip_on=False, zorder=3, label="points")
         ax.set(xlim=(0.0, 1.0), ylim=(0.0, 1.0), xticks=[0.0, 1.0], xticklabels=["0", "1"], yticks=[])
         ax.set_xlabel(self._label(0), labelpad=-4.0)
         ax.spines["top"].set_visible(False)
-        _label_above(ax)
 
 
 def check_dims(dims: int) -> None:
@@ -223,18 +222,11 @@ def check_dims(dims: int) -> None:
         raise UsageError(f"a picture shows at most {MOST_DIMS} dimensions, not {dims}: write .csv or .npy")
 
 
-def _label_above(ax: Axes) -> None:
-    ax.xaxis.set_label_position("top")
-    ax.xaxis.tick_top()
-    ax.tick_params(which="major", length=0.0, pad=5.0, labelsize=SMALL_SIZE)
-    ax.tick_params(which="minor", length=3.0, width=_TICK[1], color=_TICK[0])
-
-
 def _draw_grid(ax: Axes, grid: Grid, side: float, dims: int) -> None:
     """Draw the lines and ticks of a grid on one or both axes of a panel, ``side`` points long."""
     for axis in range(dims):
-        cells, intervals = grid.cells[axis] if dims == 2 else 1, grid.intervals[axis]
-        lines = ax.vlines if axis == 0 else ax.hlines
+        cells, intervals = grid.cells[axis], grid.intervals[axis]
+        lines, set_ticks = (ax.vlines, ax.set_xticks) if axis == 0 else (ax.hlines, ax.set_yticks)
         ticks: list[NDArray[np.float64]] = []
         if cells > 1 and side / cells >= _LEAST_CELL:
             colour, width = _STRONG if side / cells >= _LEAST_BOLD else _FINE
@@ -242,12 +234,12 @@ def _draw_grid(ax: Axes, grid: Grid, side: float, dims: int) -> None:
         elif cells > 1 and side / cells >= _LEAST_TICK:
             ticks.append(np.arange(1, cells) / cells)
         if intervals > 1 and intervals <= LINES_UP_TO and side / intervals >= _LEAST_INTERVAL:
-            # A line of both is drawn once, as the stronger.
+            # A line between cells is drawn once, as the stronger one.
             numbers = np.arange(1, intervals)
-            numbers = numbers[numbers * cells % intervals != 0] if cells > 1 else numbers
+            numbers = numbers[numbers * cells % intervals != 0]
             colour, width = _FAINT
             lines(numbers / intervals, 0.0, 1.0, colour, linewidths=width, zorder=0.5, label="intervals")
         elif intervals > 1 and side / intervals >= _LEAST_TICK:
             ticks.append(np.arange(1, intervals) / intervals)
         if ticks:
-            (ax.set_xticks if axis == 0 else ax.set_yticks)(np.unique(np.concatenate(ticks)), minor=True)
+            set_ticks(np.unique(np.concatenate(ticks)), minor=True)

@@ -14,7 +14,7 @@ import numpy as np
 from samplekit._errors import SamplekitError, UsageError
 from samplekit.files._images import reading
 from samplekit.files._images.library import oiio, write_image
-from samplekit.files._images.metadata import KEY, encode_metadata
+from samplekit.files._images.metadata import KEY, decode_metadata, encode_metadata
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -148,7 +148,7 @@ def _read(path: Path) -> tuple[dict[str, NDArray[np.float32]], dict[str, Any], W
         if file.format_name() != "openexr":
             raise UsageError(f"it is a {file.format_name()} file, not EXR")
         specs = reading.part_specs(file)
-        metadata = reading.metadata(specs[0])
+        metadata = decode_metadata(specs[0].get_string_attribute(KEY))
         stored = {}
         for index, spec in enumerate(specs):
             name = spec.get_string_attribute("oiio:subimagename")

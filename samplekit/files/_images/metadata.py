@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
-from samplekit._errors import SamplekitError
+from samplekit._errors import SamplekitError, UsageError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -33,13 +33,17 @@ def _refuse(constant: str) -> None:
 
 
 def decode_metadata(text: str) -> dict[str, Any]:
-    """Return the metadata in the text of an attribute.
+    """Return the metadata in the text of an attribute, which is empty where the image has none.
 
     Raises
     ------
+    UsageError
+        There is none, so samplekit did not write the image.
     SamplekitError
         The text is no JSON object.
     """
+    if not text:
+        raise UsageError("it was not made by samplekit: it has no samplekit metadata")
     try:
         metadata = json.loads(text, parse_constant=_refuse)
         # JSON can write half of a character, which no terminal can show: that is refused here as well.

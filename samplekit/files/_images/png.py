@@ -9,7 +9,7 @@ import numpy as np
 from samplekit._errors import SamplekitError, UsageError
 from samplekit.files._images import reading
 from samplekit.files._images.library import oiio, write_image
-from samplekit.files._images.metadata import KEY, encode_metadata
+from samplekit.files._images.metadata import KEY, decode_metadata, encode_metadata
 from samplekit.files._writing import Writer, write_group
 
 if TYPE_CHECKING:
@@ -97,5 +97,5 @@ def read_png(path: Path) -> tuple[NDArray[np.uint8], dict[str, Any]]:
         if file.format_name() != "png":
             raise UsageError(f"it is a {file.format_name()} file, not PNG")
         spec = file.spec()
-        metadata = reading.metadata(spec)
+        metadata = decode_metadata(spec.get_string_attribute(KEY))
         return reading.pixels(file, 0, spec, oiio.UINT8), metadata

@@ -55,7 +55,7 @@ def read_info(path: Path) -> dict[str, Any]:
                 }
                 for spec in specs
             ],
-            "metadata": metadata(first),
+            "metadata": decode_metadata(first.get_string_attribute(KEY)),
         }
 
 
@@ -125,17 +125,3 @@ def pixels(file: oiio.ImageInput, part: int, spec: oiio.ImageSpec, kind: Any) ->
     if values is None or file.has_error:
         raise SamplekitError(f"it is damaged: {one_line(file.geterror())}")
     return np.asarray(values).reshape(spec.height, spec.width, spec.nchannels)
-
-
-def metadata(spec: oiio.ImageSpec) -> dict[str, Any]:
-    """Return the metadata of one part.
-
-    Raises
-    ------
-    UsageError
-        The file has none, so samplekit did not write it.
-    """
-    text = spec.get_string_attribute(KEY)
-    if not text:
-        raise UsageError("it was not made by samplekit: it has no samplekit metadata")
-    return decode_metadata(text)

@@ -10,7 +10,7 @@ from samplekit._errors import UsageError
 from samplekit.files._images.exr import Window, parts_writer
 from samplekit.files._images.falsecolor import error_picture
 from samplekit.files._images.png import encode_srgb, png_writer
-from samplekit.files._stem import write_stem
+from samplekit.files._writing import write_stem
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -1,5 +1,5 @@
 """Point sets in files, as text or as an array.
 
-``write`` and ``read`` choose the format by the file's ending. Nothing is imported here, so that importing the package
-costs nothing.
+``formats`` chooses the format by the file's ending. Nothing is imported here, so that importing the package costs
+nothing.
 """
