@@ -1,4 +1,4 @@
-"""Writing files so that each is there whole or not at all.
+"""Writing files, alone or several with the same stem, whole or not at all.
 
 Every file is written beside its target under another name, verified by its writer, and takes the target's name only
 then. A full disk, a wrong path, an interrupt or a kill leaves the old file or none, never half of a new one.
@@ -22,14 +22,14 @@ Writer = Callable[[Path], None]
 """Writes a file under the name it is given, reads it back, and raises `SamplekitError` if that is not the same."""
 
 _FULL = 64 * 1024
-"""Bytes free below which a failure is put down to a full disk: image libraries do not say why they failed."""
+"""Free bytes below which a full disk is taken as the cause of a failure: image libraries do not state the cause."""
 
 
 def write_group(items: Sequence[tuple[Path, Writer]]) -> None:
     """Write several files: all of them exist and are verified before the first takes its name.
 
-    Symbolic links are followed. The files get the permissions of any new file. Should a rename itself fail, half way
-    through the group, the message says which of the files are new.
+    Symbolic links are followed. The files get the permissions of any new file. If a rename fails half way through the
+    group, the message says which of the files are new.
 
     Parameters
     ----------
@@ -40,7 +40,8 @@ def write_group(items: Sequence[tuple[Path, Writer]]) -> None:
     Raises
     ------
     UsageError
-        A path that cannot be written to: no such folder, a folder, a device, a write-protected file, one path twice.
+        A path cannot be written to: its folder does not exist, it is a folder, a device or write-protected, or it is
+        given twice.
     SamplekitError
         The writing failed; every path holds what it held before.
     """
@@ -64,7 +65,7 @@ def check_targets(paths: Sequence[Path]) -> list[Path]:
     Raises
     ------
     UsageError
-        A path that cannot be written to, as in `write_group`.
+        A path cannot be written to, as in `write_group`.
     """
     targets = [_target(path) for path in paths]
     for index, target in enumerate(targets):
@@ -197,7 +198,7 @@ def _write(temporary: Path, path: Path, writer: Writer) -> None:
 
 
 def _flush(temporary: Path) -> None:
-    """Have the system put the file on the disk: some report a full one only then."""
+    """Make the system put the file on the disk: some systems report a full disk only then."""
     with temporary.open("r+b") as file:
         try:
             os.fsync(file.fileno())
@@ -223,12 +224,12 @@ def _is_full(folder: Path) -> bool:
 
 
 def text_writer(pieces: Iterable[str]) -> Writer:
-    """Make a writer of text as UTF-8 with the line ends it has, on every system; the pieces are taken one at a time."""
+    """Make a writer of text as UTF-8, with the same line ends on every system; it takes the pieces one at a time."""
     return data_writer(piece.encode() for piece in pieces)
 
 
 def data_writer(pieces: Iterable[bytes | memoryview]) -> Writer:
-    """Make a writer of bytes; the pieces are taken one at a time."""
+    """Make a writer of bytes; it takes the pieces one at a time."""
 
     def write(temporary: Path) -> None:
         written = hashlib.sha256()

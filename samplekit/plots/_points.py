@@ -30,7 +30,7 @@ _POINT = "#c2281d"
 _STRONG, _FINE, _FAINT, _TICK = ("#a9b3c1", 0.7), ("#b9c2ce", 0.4), ("#dfe3e9", 0.6), ("#8c97a6", 0.4)
 """Colour and width in points of lines between cells, of those between many, between intervals, and of ticks."""
 _LEAST_BOLD, _LEAST_CELL, _LEAST_INTERVAL, _LEAST_TICK = 8.0, 3.5, 2.0, 1.2
-"""Distances in points below which lines are thinner, then ticks, then left out: no picture is a grey mass."""
+"""Distances in points below which lines are thinner, then ticks, then left out: many would be a grey mass."""
 
 
 class PointsDisplay(Display):
@@ -48,7 +48,7 @@ class PointsDisplay(Display):
     title
         Stands above the picture, with a description of the grids below it.
     names
-        Number of each dimension, as its axis shows it; None: from 0 on.
+        The number that each axis shows as its dimension; None: from 0 on.
 
     Attributes
     ----------
@@ -118,7 +118,7 @@ class PointsDisplay(Display):
         Parameters
         ----------
         source, seed
-            What made the set.
+            The sampler and the seed that made the set.
         points
             float64[N, D] in [0, 1].
         """
@@ -128,7 +128,7 @@ class PointsDisplay(Display):
 
     @property
     def pairs(self) -> list[tuple[int, ...]]:
-        """The dimensions along x and along y of each panel, row by row; of one dimension it alone."""
+        """The dimensions along x and along y of each panel, row by row; in one dimension ``(0,)``."""
         dims = self.points.shape[1]
         return [(0,)] if dims == 1 else [(x, y) for y in range(1, dims) for x in range(y)]
 
@@ -157,7 +157,7 @@ class PointsDisplay(Display):
         self.choose_axes(ax, axes, len(self.pairs), self._new_axes)
         for panel, pair in zip(self.axes_, self.pairs, strict=True):
             side = panel.bbox.width * 72 / panel.figure.dpi
-            _draw_grid(panel, grid_of(self.promises, count, dims, pair), side, len(pair))
+            _draw_grid(panel, grid_of(self.promises, count, dims, pair), side)
             if dims == 1:
                 self._draw_strip(panel, side)
             else:
@@ -216,23 +216,23 @@ def check_dims(dims: int) -> None:
     Raises
     ------
     UsageError
-        More than 16.
+        There are more than 16.
     """
     if dims > MOST_DIMS:
         raise UsageError(f"a picture shows at most {MOST_DIMS} dimensions, not {dims}: write .csv or .npy")
 
 
-def _draw_grid(ax: Axes, grid: Grid, side: float, dims: int) -> None:
-    """Draw the lines and ticks of a grid on one or both axes of a panel, ``side`` points long."""
-    for axis in range(dims):
+def _draw_grid(ax: Axes, grid: Grid, side: float) -> None:
+    """Draw the lines and ticks of a grid along both axes of a panel, ``side`` points long."""
+    for axis in (0, 1):
         cells, intervals = grid.cells[axis], grid.intervals[axis]
         lines, set_ticks = (ax.vlines, ax.set_xticks) if axis == 0 else (ax.hlines, ax.set_yticks)
-        ticks: list[NDArray[np.float64]] = []
+        ticks = np.array([])
         if cells > 1 and side / cells >= _LEAST_CELL:
             colour, width = _STRONG if side / cells >= _LEAST_BOLD else _FINE
             lines(np.arange(1, cells) / cells, 0.0, 1.0, colour, linewidths=width, zorder=0.6, label="cells")
         elif cells > 1 and side / cells >= _LEAST_TICK:
-            ticks.append(np.arange(1, cells) / cells)
+            ticks = np.arange(1, cells) / cells
         if intervals > 1 and intervals <= LINES_UP_TO and side / intervals >= _LEAST_INTERVAL:
             # A line between cells is drawn once, as the stronger one.
             numbers = np.arange(1, intervals)
@@ -240,6 +240,6 @@ def _draw_grid(ax: Axes, grid: Grid, side: float, dims: int) -> None:
             colour, width = _FAINT
             lines(numbers / intervals, 0.0, 1.0, colour, linewidths=width, zorder=0.5, label="intervals")
         elif intervals > 1 and side / intervals >= _LEAST_TICK:
-            ticks.append(np.arange(1, intervals) / intervals)
-        if ticks:
-            set_ticks(np.unique(np.concatenate(ticks)), minor=True)
+            ticks = np.union1d(ticks, np.arange(1, intervals) / intervals)
+        if ticks.size:
+            set_ticks(ticks, minor=True)

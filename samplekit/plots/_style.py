@@ -1,4 +1,4 @@
-"""How the pictures look: type, lines, colours that all eyes can tell apart, and panels of a stated size."""
+"""How the pictures look: fonts, lines, colours that all eyes can tell apart, and panels of a stated size."""
 
 from __future__ import annotations
 

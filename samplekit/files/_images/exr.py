@@ -1,8 +1,8 @@
 """Multi-part float32 EXR: named parts of one size, their place in the whole image, and how they were made.
 
 Part k has channel Y, or R, G and B, ``zip`` compression, and the metadata as a JSON string in attribute
-``samplekit``, repeated in every part so that a part taken out of the file still says what it is. There is no date:
-the same input gives the same bytes.
+``samplekit``. Every part has the metadata, so that a part taken out of the file still says how it was made. There is no
+date: the same input gives the same bytes.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def parts_writer(parts: Mapping[str, ArrayLike], metadata: Mapping[str, Any], wi
     SamplekitError
         A finite value is beyond the range of float32, or the metadata is no JSON.
     """
-    arrays = {name: to_float32(name, values) for name, values in parts.items()}
+    arrays = {name: _to_float32(name, values) for name, values in parts.items()}
     if "" in arrays:
         raise UsageError("a part of an EXR file needs a name")
     sizes = {values.shape[:2] for values in arrays.values()}
@@ -86,7 +86,7 @@ def read_parts(path: Path) -> Contents:
     Raises
     ------
     UsageError
-        No such file, or one that samplekit did not write.
+        There is no such file, or samplekit did not write it.
     SamplekitError
         The file is damaged.
     """
@@ -96,15 +96,15 @@ def read_parts(path: Path) -> Contents:
     return Contents(parts, metadata, window)
 
 
-def to_float32(name: str, values: ArrayLike) -> NDArray[np.float32]:
-    """float32[h, w, 1 or 3] of one part.
+def _to_float32(name: str, values: ArrayLike) -> NDArray[np.float32]:
+    """Return the values of one part as float32[h, w, 1 or 3].
 
     Raises
     ------
     UsageError
-        Another shape, or no pixels.
+        The part has another shape, or no pixels.
     SamplekitError
-        A finite value beyond the range of float32, which would be stored as infinity.
+        A finite value is beyond the range of float32, and would be stored as infinity.
     """
     array = np.asarray(values, np.float64)
     if not (array.ndim == 2 or (array.ndim == 3 and array.shape[2] == 3)) or array.size == 0:

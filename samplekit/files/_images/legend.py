@@ -16,6 +16,9 @@ if TYPE_CHECKING:
 BACKGROUND = 38
 """Grey level of the strip and of the margin beside a narrow picture: unlike any error."""
 
+_ALIGNMENTS = {0.0: "left", 1.0: "right"}
+"""How the labels at the ends of the bar lie on their ticks; those between are centred."""
+
 
 def strip(title: str, phrases: list[str], invalid: int, scale: float, room: int) -> NDArray[np.uint8]:
     """Draw the strip uint8[h, room, 3] below a picture, as high as its lines need.
@@ -36,11 +39,12 @@ def strip(title: str, phrases: list[str], invalid: int, scale: float, room: int)
     size = min(max(round(room / 42), 13), 96)
     margin = (size + 1) // 2
     line = round(1.4 * size)
+    span = room - 2 * margin
     labels: list[Label] = []
     swatches: list[tuple[int, int]] = []
     y = margin + size
     if title:
-        labels.append(Label(fitted(printable(title), size, room - 2 * margin), margin, y))
+        labels.append(Label(fitted(printable(title), size, span), margin, y))
         y += line
     marked = [f"{pixel_count(invalid)} not finite"] if invalid else []
     x = margin
@@ -55,17 +59,18 @@ def strip(title: str, phrases: list[str], invalid: int, scale: float, room: int)
         labels.append(Label(text, x + indent, y))
         x += need + size
     top, bottom = y + line - size + margin // 2, y + margin
-    ticks = _ticks(scale, size, room - 2 * margin) if scale > 0.0 else []
+    ticks = _tick_places(scale, size, span) if scale > 0.0 else []
     if ticks:
         baseline = top + size + size // 3 + round(1.1 * size)
         bottom = baseline + margin
-        for place, text, align in ticks:
-            labels.append(Label(text, margin + round(place * (room - 2 * margin - 1)), baseline, align))
+        for place in ticks:
+            value, align = (2.0 * place - 1.0) * scale, _ALIGNMENTS.get(place, "center")
+            labels.append(Label(number(value), margin + round(place * (span - 1)), baseline, align))
     pixels = draw(np.full((bottom, room, 3), BACKGROUND, np.uint8), labels, size)
     for x, upper in swatches:
         pixels[upper : upper + size, x : x + size] = RESERVED
     if ticks:
-        _draw_bar(pixels, margin, top, size, [place for place, _, _ in ticks])
+        _draw_bar(pixels, margin, top, size, ticks)
     return pixels
 
 
@@ -80,13 +85,11 @@ def number(value: float) -> str:
     return f"{mantissa}e{int(exponent)}" if e else mantissa
 
 
-def _ticks(scale: float, size: int, room: int) -> list[tuple[float, str, str]]:
-    """Place in [0, 1], text and alignment of each tick: five, or three where five labels would touch."""
-    ends = [(0.0, number(-scale), "left"), (0.5, "0", "center"), (1.0, number(scale), "right")]
+def _tick_places(scale: float, size: int, span: int) -> list[float]:
+    """Choose the places of ticks along the bar, in [0, 1]: five, or three where five labels would touch."""
     half = scale / 2.0
-    between = [(0.25, number(-half), "center"), (0.75, number(half), "center")]
-    need = 2 * width(number(-scale), size) + width(number(-half), size) * 2 + width("0", size) + 4 * size
-    return sorted(ends + between) if half > 0.0 and need <= room else ends
+    need = 2 * (width(number(-scale), size) + width(number(-half), size)) + width("0", size) + 4 * size
+    return [0.0, 0.25, 0.5, 0.75, 1.0] if half > 0.0 and need <= span else [0.0, 0.5, 1.0]
 
 
 def _draw_bar(pixels: NDArray[np.uint8], margin: int, top: int, size: int, places: list[float]) -> None:

@@ -48,7 +48,7 @@ def write_image(path: Path, file_format: str, specs: Sequence[oiio.ImageSpec], p
             good = good and output.write_image(pixels)
     finally:
         closed = output.close()  # always: an open file cannot be removed everywhere
-    error = output.geterror()  # on a full disk a PNG's every call has returned True, and only this tells
+    error = output.geterror()  # on a full disk every call for a PNG returns True, and only this reports it
     if error or not (good and closed):
         raise SamplekitError(one_line(error))
 

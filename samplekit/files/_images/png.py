@@ -1,4 +1,4 @@
-"""Eight-bit PNG: linear values encoded as sRGB for the eye, with how they were made in a text chunk ``samplekit``."""
+"""Eight-bit PNG: linear values encoded as sRGB for the eye; a text chunk ``samplekit`` says how they were made."""
 
 from __future__ import annotations
 
@@ -52,9 +52,9 @@ def write_png(path: Path, pixels: NDArray[np.uint8], metadata: Mapping[str, Any]
     Raises
     ------
     UsageError
-        Pixels of another shape or type; a path that cannot be written to.
+        The pixels have another shape or type, or the path cannot be written to.
     SamplekitError
-        Metadata that is no JSON; the writing failed.
+        The metadata is no JSON, or the writing failed.
     """
     write_group([(path, png_writer(pixels, metadata))])
 
@@ -89,7 +89,7 @@ def read_png(path: Path) -> tuple[NDArray[np.uint8], dict[str, Any]]:
     Raises
     ------
     UsageError
-        No such file, or one that samplekit did not write.
+        There is no such file, or samplekit did not write it.
     SamplekitError
         The file is damaged.
     """
