@@ -18,7 +18,7 @@ def info(
 
     Example: samplekit info zoneplate-hammersley-16spp.exr
     """
-    from samplekit.files._images.info import read_info
+    from samplekit.files._images.reading import read_info
 
     found = read_info(file)
     if json:

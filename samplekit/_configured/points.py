@@ -83,7 +83,7 @@ def points(
 
 
 def _check_output(path: Path, realizations: int, dims: int) -> None:
-    from samplekit.files._pointsets.write import PICTURES, check_path
+    from samplekit.files._pointsets.formats import PICTURES, check_path
 
     if check_path(path, realizations) in PICTURES:
         from samplekit.plots._points import check_dims
@@ -98,7 +98,7 @@ def _write(
     seed: int,
     progress: Callable[[int, int], None],
 ) -> None:
-    from samplekit.files._pointsets.write import PICTURES, write_points
+    from samplekit.files._pointsets.formats import PICTURES, write_points
 
     if path.suffix.lower() in PICTURES:
         from samplekit.plots import PointsDisplay

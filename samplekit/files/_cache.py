@@ -1,9 +1,8 @@
 """Arrays that take long to make, kept across runs in the user's cache folder.
 
-A file is a NumPy ``.npy`` file followed by a SHA-256 digest over its key and all that stands before: one that was cut
-short, changed, or made for something else is made anew. It is written beside its place, flushed and renamed, so that
-neither a kill nor a second process at the same work leaves half a file. Where nothing can be written nothing is kept,
-and nothing fails.
+A file is a NumPy ``.npy`` file followed by a SHA-256 digest of its key and its content: one that was cut short,
+changed, or made for another key is made anew. It is written whole or not at all, so that neither a kill nor a second
+process with the same work leaves half a file. Where no file can be written, no array is kept, and nothing fails.
 """
 
 from __future__ import annotations
@@ -12,12 +11,14 @@ import contextlib
 import hashlib
 import io
 import os
-import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import platformdirs
+
+from samplekit._errors import SamplekitError
+from samplekit.files._writing import data_writer, write_group
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -25,12 +26,13 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 VARIABLE = "SAMPLEKIT_CACHE"
+_DIGEST_SIZE = hashlib.sha256().digest_size
 
 
 def cache_folder() -> Path | None:
-    """The folder for what is kept across runs, made if need be; None if there can be none.
+    """Return the folder of the cache, made if need be; None if there can be none.
 
-    The environment variable SAMPLEKIT_CACHE names another folder; empty, it turns keeping off.
+    The environment variable SAMPLEKIT_CACHE names another folder; if it is empty, nothing is kept.
     """
     chosen = os.environ.get(VARIABLE)
     if chosen == "":
@@ -53,18 +55,18 @@ def cached_array(
     make: Callable[[], NDArray[Any]],
     valid: Callable[[NDArray[Any]], bool] = lambda _: True,
 ) -> NDArray[Any]:
-    """The array that ``make`` gives, from the cache if it is there.
+    """Return the array that ``make`` returns, from the cache if it is there.
 
     Parameters
     ----------
     name
         Beginning of the file's name: letters, digits and dashes.
     key
-        All that the array depends on, a version of the code that makes it included.
+        Everything that the array depends on, including a version of the code that makes it.
     make
         Makes the array.
     valid
-        Whether a loaded array is what ``make`` would give, as far as one can see: shape, type, range.
+        Whether a loaded array may be what ``make`` returns: checks its shape, type and range.
     """
     folder = cache_folder()
     if folder is None:
@@ -79,16 +81,13 @@ def cached_array(
 
 
 def _digest(key: str, content: bytes) -> bytes:
-    digest = hashlib.sha256(key.encode())
-    digest.update(content)
-    return digest.digest()
+    return hashlib.sha256(key.encode() + content).digest()
 
 
 def _load(path: Path, key: str) -> NDArray[Any] | None:
     try:
         data = path.read_bytes()
-        size = hashlib.sha256().digest_size
-        content, digest = data[:-size], data[-size:]
+        content, digest = data[:-_DIGEST_SIZE], data[-_DIGEST_SIZE:]
         if digest != _digest(key, content):
             return None
         return np.asarray(np.load(io.BytesIO(content), allow_pickle=False))
@@ -100,15 +99,6 @@ def _save(path: Path, key: str, array: NDArray[Any]) -> None:
     buffer = io.BytesIO()
     np.save(buffer, array, allow_pickle=False)
     content = buffer.getvalue()
-    # What cannot be written (a full disk, a folder that is read-only) is not kept.
-    with contextlib.suppress(OSError):
-        descriptor, written = tempfile.mkstemp(suffix=".tmp", prefix=path.stem, dir=path.parent)
-        try:
-            with os.fdopen(descriptor, "wb") as file:
-                file.write(content)
-                file.write(_digest(key, content))
-                file.flush()
-                os.fsync(file.fileno())
-            Path(written).replace(path)
-        finally:
-            Path(written).unlink(missing_ok=True)
+    # An array that cannot be written (the disk is full, or the folder is read-only) is not kept.
+    with contextlib.suppress(SamplekitError):
+        write_group([(path, data_writer([content, _digest(key, content)]))])

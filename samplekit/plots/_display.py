@@ -1,4 +1,4 @@
-"""The parts that all displays share."""
+"""The base class of all displays."""
 
 from __future__ import annotations
 
@@ -68,7 +68,7 @@ class Display:
         Raises
         ------
         UsageError
-            Another number of axes were given.
+            The caller gave another number of axes.
         """
         if ax is None and axes is None:
             self.figure_, self.axes_ = make()

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from samplekit._errors import UsageError
-from samplekit.files._pointsets.grids import describe_grids, grid_of
 from samplekit.plots._display import Display
+from samplekit.plots._grids import describe_grids, grid_of
 from samplekit.plots._style import SMALL_SIZE, make_axes, style
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from samplekit._configured.sampler import ConfiguredSampler
     from samplekit._specs import Promise
-    from samplekit.files._pointsets.grids import Grid
+    from samplekit.plots._grids import Grid
 
 MOST_DIMS = 16
 LINES_UP_TO = 64
@@ -30,7 +30,7 @@ _POINT = "#c2281d"
 _STRONG, _FINE, _FAINT, _TICK = ("#a9b3c1", 0.7), ("#b9c2ce", 0.4), ("#dfe3e9", 0.6), ("#8c97a6", 0.4)
 """Colour and width in points of lines between cells, of those between many, between intervals, and of ticks."""
 _LEAST_BOLD, _LEAST_CELL, _LEAST_INTERVAL, _LEAST_TICK = 8.0, 3.5, 2.0, 1.2
-"""Distances in points below which lines are thinner, then ticks, then left out: no picture is a grey mass."""
+"""Distances in points below which lines are thinner, then ticks, then left out: many would be a grey mass."""
 
 
 class PointsDisplay(Display):
@@ -48,7 +48,7 @@ class PointsDisplay(Display):
     title
         Stands above the picture, with a description of the grids below it.
     names
-        Number of each dimension, as its axis shows it; None: from 0 on.
+        The number that each axis shows as its dimension; None: from 0 on.
 
     Attributes
     ----------
@@ -58,7 +58,7 @@ class PointsDisplay(Display):
     Raises
     ------
     UsageError
-        More than 16 dimensions, or values outside [0, 1].
+        There are more than 16 dimensions, or values outside [0, 1].
 
     Examples
     --------
@@ -118,7 +118,7 @@ class PointsDisplay(Display):
         Parameters
         ----------
         source, seed
-            What made the set.
+            The sampler and the seed that made the set.
         points
             float64[N, D] in [0, 1].
         """
@@ -128,7 +128,7 @@ class PointsDisplay(Display):
 
     @property
     def pairs(self) -> list[tuple[int, ...]]:
-        """The dimensions along x and along y of each panel, row by row; of one dimension it alone."""
+        """The dimensions along x and along y of each panel, row by row; in one dimension ``(0,)``."""
         dims = self.points.shape[1]
         return [(0,)] if dims == 1 else [(x, y) for y in range(1, dims) for x in range(y)]
 
@@ -156,11 +156,16 @@ class PointsDisplay(Display):
         count, dims = self.points.shape
         self.choose_axes(ax, axes, len(self.pairs), self._new_axes)
         for panel, pair in zip(self.axes_, self.pairs, strict=True):
-            grid = grid_of(self.promises, count, dims, pair)
+            side = panel.bbox.width * 72 / panel.figure.dpi
+            _draw_grid(panel, grid_of(self.promises, count, dims, pair), side)
             if dims == 1:
-                self._draw_strip(panel, grid)
+                self._draw_strip(panel, side)
             else:
-                self._draw_square(panel, pair, grid)
+                self._draw_square(panel, pair, side)
+            panel.xaxis.set_label_position("top")
+            panel.xaxis.tick_top()
+            panel.tick_params(which="major", length=0.0, pad=5.0, labelsize=SMALL_SIZE)
+            panel.tick_params(which="minor", length=3.0, width=_TICK[1], color=_TICK[0])
         return self
 
     def _new_axes(self) -> tuple[Figure, list[Axes]]:
@@ -182,9 +187,7 @@ class PointsDisplay(Display):
     def _label(self, dimension: int) -> str:
         return f"$x_{{{self._names[dimension]}}}$"
 
-    def _draw_square(self, ax: Axes, pair: tuple[int, ...], grid: Grid) -> None:
-        side = ax.bbox.width * 72 / ax.figure.dpi
-        _draw_grid(ax, grid, side, 2)
+    def _draw_square(self, ax: Axes, pair: tuple[int, ...], side: float) -> None:
         spacing = side / len(self.points) ** 0.5
         size = 2.0 * min(max(0.18 * spacing, 0.25), max(side / 100, 1.0))
         x, y = self.points[:, pair].T
@@ -196,19 +199,15 @@ class PointsDisplay(Display):
             ax.set_xlabel(self._label(pair[0]), labelpad=3.5 if several else -4.0)
         if not several or pair[0] == 0:
             ax.set_ylabel(self._label(pair[1]), rotation=0.0, va="center", labelpad=8.0 if several else 4.0)
-        ax.set_xticks([] if several else [0.0, 1.0], None if several else ["0", "1"])
-        ax.set_yticks([] if several else [0.0, 1.0], None if several else ["0", "1"])
-        _label_above(ax)
+        for set_ticks in (ax.set_xticks, ax.set_yticks):
+            set_ticks([] if several else [0.0, 1.0], None if several else ["0", "1"])
 
-    def _draw_strip(self, ax: Axes, grid: Grid) -> None:
-        side = ax.bbox.width * 72 / ax.figure.dpi
-        _draw_grid(ax, grid, side, 1)
+    def _draw_strip(self, ax: Axes, side: float) -> None:
         width = min(max(0.3 * side / len(self.points), 0.3), 1.4)
         ax.vlines(self.points[:, 0], 0.0, 0.75, _POINT, linewidths=width, clip_on=False, zorder=3, label="points")
         ax.set(xlim=(0.0, 1.0), ylim=(0.0, 1.0), xticks=[0.0, 1.0], xticklabels=["0", "1"], yticks=[])
         ax.set_xlabel(self._label(0), labelpad=-4.0)
         ax.spines["top"].set_visible(False)
-        _label_above(ax)
 
 
 def check_dims(dims: int) -> None:
@@ -217,37 +216,30 @@ def check_dims(dims: int) -> None:
     Raises
     ------
     UsageError
-        More than 16.
+        There are more than 16.
     """
     if dims > MOST_DIMS:
         raise UsageError(f"a picture shows at most {MOST_DIMS} dimensions, not {dims}: write .csv or .npy")
 
 
-def _label_above(ax: Axes) -> None:
-    ax.xaxis.set_label_position("top")
-    ax.xaxis.tick_top()
-    ax.tick_params(which="major", length=0.0, pad=5.0, labelsize=SMALL_SIZE)
-    ax.tick_params(which="minor", length=3.0, width=_TICK[1], color=_TICK[0])
-
-
-def _draw_grid(ax: Axes, grid: Grid, side: float, dims: int) -> None:
-    """Draw the lines and ticks of a grid on one or both axes of a panel, ``side`` points long."""
-    for axis in range(dims):
-        cells, intervals = grid.cells[axis] if dims == 2 else 1, grid.intervals[axis]
-        lines = ax.vlines if axis == 0 else ax.hlines
-        ticks: list[NDArray[np.float64]] = []
+def _draw_grid(ax: Axes, grid: Grid, side: float) -> None:
+    """Draw the lines and ticks of a grid along both axes of a panel, ``side`` points long."""
+    for axis in (0, 1):
+        cells, intervals = grid.cells[axis], grid.intervals[axis]
+        lines, set_ticks = (ax.vlines, ax.set_xticks) if axis == 0 else (ax.hlines, ax.set_yticks)
+        ticks = np.array([])
         if cells > 1 and side / cells >= _LEAST_CELL:
             colour, width = _STRONG if side / cells >= _LEAST_BOLD else _FINE
             lines(np.arange(1, cells) / cells, 0.0, 1.0, colour, linewidths=width, zorder=0.6, label="cells")
         elif cells > 1 and side / cells >= _LEAST_TICK:
-            ticks.append(np.arange(1, cells) / cells)
+            ticks = np.arange(1, cells) / cells
         if intervals > 1 and intervals <= LINES_UP_TO and side / intervals >= _LEAST_INTERVAL:
-            # A line of both is drawn once, as the stronger.
+            # A line between cells is drawn once, as the stronger one.
             numbers = np.arange(1, intervals)
-            numbers = numbers[numbers * cells % intervals != 0] if cells > 1 else numbers
+            numbers = numbers[numbers * cells % intervals != 0]
             colour, width = _FAINT
             lines(numbers / intervals, 0.0, 1.0, colour, linewidths=width, zorder=0.5, label="intervals")
         elif intervals > 1 and side / intervals >= _LEAST_TICK:
-            ticks.append(np.arange(1, intervals) / intervals)
-        if ticks:
-            (ax.set_xticks if axis == 0 else ax.set_yticks)(np.unique(np.concatenate(ticks)), minor=True)
+            ticks = np.union1d(ticks, np.arange(1, intervals) / intervals)
+        if ticks.size:
+            set_ticks(ticks, minor=True)

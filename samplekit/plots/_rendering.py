@@ -11,7 +11,7 @@ from samplekit.files._images import diverging
 from samplekit.files._images.falsecolor import rounded_up
 from samplekit.files._images.png import RESERVED, encode_srgb
 from samplekit.plots._display import Display
-from samplekit.plots._style import add_bar, interpolation, make_axes, style
+from samplekit.plots._style import add_bar, make_axes, style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -24,7 +24,7 @@ Part = Literal["image", "reference", "error"]
 PARTS: tuple[Part, ...] = ("image", "reference", "error")
 
 _SIDE, _LARGEST_SIDE = 2.2, 5.12
-"""Inches that the longer side of a panel has at least, but for whole pixels, and at most."""
+"""Inches: the longer side of a panel has at least the first, rounded to whole pixels, and at most the second."""
 
 
 class RenderingDisplay(Display):
@@ -51,7 +51,7 @@ class RenderingDisplay(Display):
     Raises
     ------
     UsageError
-        An unknown part, one that the rendering was made without, or a scale that is not above 0.
+        The part is unknown, the rendering was made without it, or the scale is not above 0.
 
     Examples
     --------
@@ -99,10 +99,9 @@ class RenderingDisplay(Display):
         self.choose_axes(ax, axes, len(self.parts), self._new_axes)
         x, y, width, height = self.rendering.plan.pixels.window
         for panel, (name, values) in zip(self.axes_, self.parts.items(), strict=True):
-            kind: dict[str, Any] = {
-                "extent": (x, x + width, y + height, y),
-                "interpolation": interpolation(panel, width),
-            }
+            # Each value is a square, unless the axes have fewer pixels than the image.
+            interpolation = "nearest" if panel.bbox.width > width - 0.5 else "auto"
+            kind: dict[str, Any] = {"extent": (x, x + width, y + height, y), "interpolation": interpolation}
             if name == "error":
                 self._draw_error(panel, values, kind)
             else:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from samplekit._errors import UsageError
-from samplekit.files._images.metadata import encode
+from samplekit.files._images.metadata import encode_metadata
 from samplekit.files._writing import data_writer, write_group
 from samplekit.plots._style import style
 
@@ -42,7 +42,7 @@ def save(figure: Figure, path: str | os.PathLike[str], metadata: Mapping[str, An
     Raises
     ------
     UsageError
-        Another ending, or a path that cannot be written to.
+        The ending is another, or the path cannot be written to.
     SamplekitError
         The metadata is no JSON, or the writing failed.
 
@@ -70,7 +70,7 @@ def figure_writer(figure: Figure, ending: str, metadata: Mapping[str, Any] | Non
     figure, metadata
         As in :func:`save`.
     ending
-        Of the file's name: ``.png``, ``.svg`` or ``.pdf``.
+        End of the file's name: ``.png``, ``.svg`` or ``.pdf``.
 
     Examples
     --------
@@ -79,14 +79,14 @@ def figure_writer(figure: Figure, ending: str, metadata: Mapping[str, Any] | Non
     >>> callable(figure_writer(figure, ".svg", {"seed": "1"}))
     True
     """
-    if ending.lower() not in ENDINGS:
+    form = ending.lower()
+    if form not in ENDINGS:
         raise UsageError(f"a figure is written to a name that ends in .png, .svg or .pdf, not {ending!r}")
-    text = encode(metadata or {})
-    if ending.lower() == ".png":
+    if form == ".png":
         from samplekit.files._images.png import png_writer
 
         return png_writer(_pixels(figure), metadata or {})
-    return data_writer([_vectors(figure, ending.lower()[1:], text)])
+    return data_writer([_vectors(figure, form[1:], encode_metadata(metadata or {}))])
 
 
 def inline_svg(figure: Figure) -> str:

@@ -1,4 +1,4 @@
-"""Stability: for each sampler the digits that are right over scale and count, and below those that summation lost."""
+"""Stability: heat maps of the digits that are right, and of those that summation lost, over scale and count."""
 
 from __future__ import annotations
 
@@ -34,22 +34,18 @@ _MOST_RIGHT, _MOST_LOST = 16.0, 3.0
 _COLOURS: dict[Kind, str] = {
     "no hits": "#b9bec6",
     "few hits": "#dadde2",
-    "refused": "#f4f4f4",
     "invalid": "#ff00ff",
     "wrong": "#ff00ff",
 }
-"""Colours of cells that have no digits to show."""
+"""Colours of cells whose estimates have no digits to show."""
 _SHORT: dict[Kind, str] = {
     "right": "",
-    "no hits": "no hits",
-    "few hits": "few hits",
     "infinite variance": "~",
     "precision lost": "!",
     "not random": "=",
-    "invalid": "invalid",
     "refused": "\N{EN DASH}",
-    "wrong": "wrong",
 }
+"""Marks of cells; those of the other kinds are their names."""
 _LEGEND = (
     "blue: digits of one estimate that are right, 0 to 16;  ~ the variance is infinite: no standard error",
     "! rounding exceeds the error of sampling;  = the sampler is not random: one set, no standard error",
@@ -81,7 +77,7 @@ class StabilityDisplay(Display):
     Raises
     ------
     UsageError
-        There are no cells of this scene, or cells of several where none was chosen; some are missing.
+        There are no cells of this scene, there are cells of several scenes and none was chosen, or cells are missing.
 
     Examples
     --------
@@ -137,9 +133,10 @@ class StabilityDisplay(Display):
         return self
 
     def digits(self, sampler: str, *, lost: bool = False) -> NDArray[np.float64]:
-        """Digits that are right, or lost, of the cells of a sampler: float64[extremes, counts], NaN where none are.
+        """Return the digits of a sampler's cells that are right, or lost: float64[extremes, counts].
 
-        Where no estimate was measured, there are none; nor, of those that are right, where the cell says why.
+        They are NaN where no estimate was measured. Digits that are right are NaN also where the cell says why it has
+        none.
         """
         found = np.full((len(self.extremes), len(self.counts)), np.nan)
         for row, extreme in enumerate(self.extremes):
@@ -166,7 +163,8 @@ class StabilityDisplay(Display):
                 if np.isnan(value):
                     corner, colour = (column - 0.5, row - 0.5), _COLOURS.get(kind, "#f4f4f4")
                     ax.add_patch(Rectangle(corner, 1.0, 1.0, facecolor=colour, linewidth=0.0, zorder=0.4))
-                text = _SHORT[kind] if np.isnan(value) else f"{value:.1f}" + ("" if lost else _SHORT[kind])
+                mark = _SHORT.get(kind, kind)
+                text = mark if np.isnan(value) else f"{value:.1f}" + ("" if lost else mark)
                 ink = "white" if value > 0.55 * most else INK
                 ax.text(column, row, text, color=ink, fontsize=SMALL_SIZE, ha="center", va="center_baseline")
         ax.set_title(plain(f"{sampler}: lost" if lost else sampler), loc="left", pad=14.0)

@@ -37,8 +37,8 @@ class StudyDisplay(Display):
     """The mean squared error on one scene, a curve for each sampler, along two logarithmic axes.
 
     Every point has its 95 % interval. The legend names the slope that was fitted to each sampler, as a power of the
-    number of samples, and is sorted by the error at the end of the curves. Lines below it
-    show how some powers fall along these axes. Errors of 0 cannot be drawn on a logarithmic axis and are left out.
+    number of samples, and is sorted by the error at the end of the curves. Lines below it show how some powers fall
+    along these axes. Errors of 0 cannot be drawn on a logarithmic axis and are left out.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ class StudyDisplay(Display):
     Raises
     ------
     UsageError
-        A scene that the study does not have, or none where it has several.
+        The study does not have the scene, or it has several scenes and none was chosen.
 
     Examples
     --------
@@ -141,7 +141,7 @@ class StudyDisplay(Display):
         return "seconds $t$" if self.results.size == (1, 1) else "seconds for an image, $t$"
 
     def _curves(self) -> list[tuple[list[Row], str, dict[str, Any]]]:
-        """Rows, label and style of each sampler's curve, the largest error at its end first."""
+        """Return rows, label and style of each sampler's curve, the curve with the largest last error first."""
         slopes = {fit.sampler: fit.slope.estimate for fit in self.results.fits if fit.scene == self.scene}
         curves = []
         for number, sampler in enumerate(self.results.samplers):
@@ -165,7 +165,7 @@ class StudyDisplay(Display):
 
 
 def _with_two_powers(low: float, high: float) -> tuple[float, float]:
-    """Widen limits until two powers of ten lie within: these alone are written along the axis."""
+    """Widen limits until two powers of ten lie within them: only powers of ten are written along the axis."""
     below, above = math.floor(math.log10(low)), math.ceil(math.log10(high))
     inside = [power for power in range(below, above + 1) if low <= 10.0**power <= high]
     if len(inside) < 2:
@@ -190,10 +190,10 @@ def _mark_counts(ax: Axes, counts: list[int]) -> None:
 
 
 def _draw_slopes(ax: Axes, under: float, letter: str) -> None:
-    """Draw, below the legend, which ends ``under`` pixels high, lines that fall as powers of x do along these axes."""
+    """Draw lines that fall as powers of x do along these axes, below the legend, which ends ``under`` pixels high."""
     (left, right), (bottom, top) = ax.get_xlim(), ax.get_ylim()
     ax.set(xlim=(left, right), ylim=(bottom, top))
-    # In parts of the axes: how far a line of slope -1 goes down while it goes to the right by the whole width.
+    # How far a line of slope -1 falls over the whole width of the axes, in heights of the axes.
     fall = np.log(right / left) / np.log(top / bottom)
     width = min(0.2, 0.34 / (fall * -_SLOPES[-1]))
     point = ax.figure.dpi / 72 / ax.bbox.height

@@ -1,4 +1,4 @@
-"""How the pictures look: type, lines, colours that all eyes can tell apart, and panels of a stated size."""
+"""How the pictures look: fonts, lines, colours that all eyes can tell apart, and panels of a stated size."""
 
 from __future__ import annotations
 
@@ -28,7 +28,18 @@ TITLE_SIZE, TEXT_SIZE, SMALL_SIZE = 10.0, 8.0, 7.0
 
 _MARKERS = ("o", "s", "^", "D", "x", "+", "v")
 _LINES = ("-", "--", "-.", ":")
+_TICKS: dict[str, Any] = {
+    "color": FRAME,
+    "labelcolor": INK,
+    "labelsize": SMALL_SIZE,
+    "major.width": 0.6,
+    "major.size": 2.5,
+    "minor.width": 0.4,
+    "minor.size": 1.5,
+}
 _RC: Any = {
+    **{f"xtick.{name}": value for name, value in _TICKS.items()},
+    **{f"ytick.{name}": value for name, value in _TICKS.items()},
     "font.family": ["DejaVu Sans"],
     "font.size": TEXT_SIZE,
     "text.usetex": False,
@@ -41,20 +52,6 @@ _RC: Any = {
     "axes.titlesize": TEXT_SIZE,
     "axes.titlepad": 4.0,
     "axes.labelsize": TEXT_SIZE,
-    "xtick.color": FRAME,
-    "ytick.color": FRAME,
-    "xtick.labelcolor": INK,
-    "ytick.labelcolor": INK,
-    "xtick.labelsize": SMALL_SIZE,
-    "ytick.labelsize": SMALL_SIZE,
-    "xtick.major.width": 0.6,
-    "ytick.major.width": 0.6,
-    "xtick.major.size": 2.5,
-    "ytick.major.size": 2.5,
-    "xtick.minor.width": 0.4,
-    "ytick.minor.width": 0.4,
-    "xtick.minor.size": 1.5,
-    "ytick.minor.size": 1.5,
     "grid.color": GRID,
     "grid.linewidth": 0.6,
     "legend.fontsize": TEXT_SIZE,
@@ -104,13 +101,13 @@ def curve_style(number: int, *, marked: bool = True) -> dict[str, Any]:
     >>> curve_style(1, marked=False)
     {'color': '#d55e00', 'linestyle': '--', 'linewidth': 1.2}
     """
-    colour = COLOURS[number % len(COLOURS)]
+    cycle, place = divmod(number, len(COLOURS))
+    colour = COLOURS[place]
     if not marked:
-        cycle = number // len(COLOURS)
         return {"color": colour, "linestyle": _LINES[(number + cycle) % len(_LINES)], "linewidth": 1.2}
     return {
         "color": colour,
-        "linestyle": _LINES[number // len(COLOURS) % len(_LINES)],
+        "linestyle": _LINES[cycle % len(_LINES)],
         "linewidth": 1.1,
         "marker": _MARKERS[number % len(_MARKERS)],
         "markersize": 4.0,
@@ -134,8 +131,8 @@ def make_axes(
 ) -> tuple[Figure, list[Axes]]:
     """Make a figure whose panels have a stated size, with title and caption above them.
 
-    The figure is as large as its parts need. It is not known to ``matplotlib.pyplot``, so it goes away when nobody
-    holds it any more. Panels lie on whole pixels where all sizes are multiples of 1/200.
+    The figure is as large as its parts need. ``matplotlib.pyplot`` does not know it, so it needs no closing. Panels lie
+    on whole pixels where all sizes are multiples of 1/200.
 
     Parameters
     ----------
@@ -194,7 +191,7 @@ def plain(text: str) -> str:
 
 
 def printable(text: str) -> str:
-    """Return the text with a question mark for all that has no shape: XML has no place for control characters."""
+    """Return the text with question marks for control characters, which no font has and XML does not allow."""
     return "".join(letter if letter.isprintable() else "?" for letter in text)
 
 
@@ -211,19 +208,12 @@ def text_width(text: str, size: float = TEXT_SIZE) -> float:
 
 def _wrapped(text: str, size: float, width: float) -> list[str]:
     text = printable(text)
-    if not text:
-        return []
     letters = int(0.97 * len(text) * width / max(text_width(text, size), 0.01))
     return textwrap.wrap(text, max(letters, 10))
 
 
 def _on_pixels(inches: float) -> float:
     return math.ceil(inches * DPI) / DPI
-
-
-def interpolation(ax: Axes, columns: int) -> str:
-    """Choose how an image is drawn: each value as a square, unless the axes have fewer pixels than the image."""
-    return "nearest" if ax.bbox.width > columns - 0.5 else "auto"
 
 
 def add_bar(ax: Axes, image: ScalarMappable, label: str, ticks: Sequence[float], extend: str = "neither") -> Colorbar:

@@ -16,8 +16,8 @@ import samplekit
 from samplekit._cli import run
 from samplekit._integrate import rendering
 from samplekit.files._images.exr import read_parts
-from samplekit.files._images.info import read_info
 from samplekit.files._images.png import read_png
+from samplekit.files._images.reading import read_info
 
 SMALL = ("--sampler", "hammersley", "--spp", "4", "--size", "8")
 CONTRACT = ["mse", "rmse", "mae", "max_error", "bias", "psnr", "samples", "dims", "pixels_sampled", "pixels_left_out"]

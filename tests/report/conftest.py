@@ -18,7 +18,7 @@ from samplekit._study.results import (
     Spread,
     Times,
 )
-from samplekit.files._images.exr import write_parts
+from samplekit.files import parts_writer, write_group
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -104,7 +104,7 @@ def make_study(
                     noise = np.random.default_rng([scene_index, sampler_index, count]).standard_normal(across.shape)
                     error = math.sqrt(error_of(sampler, count)) * noise
                     parts = {"image": across + error, "reference": across, "error": error}
-                    write_parts(folder / f"{stem}.exr", parts, {})
+                    write_group([(folder / f"{stem}.exr", parts_writer(parts, {}))])
                     pictures = Pictures(f"{stem}.exr", f"{stem}.png", f"{stem}.error.png", 1.0)
                 rows.append(make_row(scene, sampler, count, size, pictures, timed))
     fits = [

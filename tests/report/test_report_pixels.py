@@ -6,7 +6,7 @@ import pytest
 
 from samplekit._errors import SamplekitError
 from samplekit._report.pixels import STEPS, pack_error, pack_reference, packed
-from samplekit.files._images.exr import write_parts
+from samplekit.files import parts_writer, write_group
 
 
 def planes(text, number):
@@ -74,7 +74,9 @@ def test_past_the_budget_each_scene_keeps_the_window_with_the_largest_errors(stu
     for row in results.rows:
         error = np.random.default_rng(row.count).standard_normal((48, 64)) * 1e-3
         error[30:40, 10:20] *= 100.0
-        write_parts(tmp_path / row.pictures.exr, {"reference": np.zeros((48, 64)), "error": error}, {})
+        write_group(
+            [(tmp_path / row.pictures.exr, parts_writer({"reference": np.zeros((48, 64)), "error": error}, {}))]
+        )
     whole = packed(results, tmp_path)
     assert not whole.scenes[0]["windowed"]
     budget = sum(map(len, whole.blobs.values())) // 3
@@ -91,6 +93,6 @@ def test_past_the_budget_each_scene_keeps_the_window_with_the_largest_errors(stu
 def test_an_image_of_another_size_is_refused_by_name(study, tmp_path):
     results = study(scenes=("disk",), size=(8, 8), folder=tmp_path)
     path = tmp_path / results.rows[5].pictures.exr
-    write_parts(path, {"reference": np.zeros((4, 4)), "error": np.zeros((4, 4))}, {})
+    write_group([(path, parts_writer({"reference": np.zeros((4, 4)), "error": np.zeros((4, 4))}, {}))])
     with pytest.raises(SamplekitError, match=path.name):
         packed(results, tmp_path)

@@ -13,7 +13,7 @@ from fuzzing.files import Bomb
 
 from samplekit import UsageError
 from samplekit.commands import _notices as notices
-from samplekit.files._pointsets.read import read_points
+from samplekit.files._pointsets.formats import read_points
 
 pytestmark = pytest.mark.slow
 

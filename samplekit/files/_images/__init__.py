@@ -1,6 +1,6 @@
-"""Images in files: the one place that touches OpenImageIO.
+"""Images in files: the one place that uses OpenImageIO.
 
-``exr`` and ``png`` write and read, ``files`` makes every write all or nothing, ``falsecolor`` draws an error,
-``rendering`` writes the files of one rendering, ``info`` tells how a file was made. Nothing is imported here, so that
+``exr`` and ``png`` write and read; ``reading`` opens files and returns how they were made; ``falsecolor`` draws an
+error, ``legend`` the strip below it; ``rendering`` writes the files of one rendering. Nothing is imported here, so that
 importing the package costs nothing.
 """

@@ -45,12 +45,7 @@ def table() -> NDArray[np.uint8]:
 
 
 def colours(error: NDArray[np.float64], scale: float) -> NDArray[np.uint8]:
-    """Return the colours uint8[h, w, 3] of finite errors float64[h, w]; beyond ±scale they are those of the ends.
-
-    ``scale`` 0 stands for an image without any error.
-    """
-    if scale == 0.0:
-        return np.broadcast_to(table()[STEPS], (*error.shape, 3)).copy()
+    """Return the colours uint8[h, w, 3] of finite errors float64[h, w]; beyond ±scale they are those of the ends."""
     with np.errstate(over="ignore"):
         relative = np.clip(error / scale, -1.0, 1.0)
     indices = np.rint(relative * STEPS).astype(np.int16) + np.int16(STEPS)
@@ -63,7 +58,7 @@ def _cartesian(lightness_chroma_hue: tuple[float, float, float]) -> NDArray[np.f
 
 
 def _linear(lab: NDArray[np.float64]) -> NDArray[np.float64]:
-    """CIELAB [n, 3] as linear Rec. 709."""
+    """Convert CIELAB [n, 3] to linear Rec. 709."""
     y = (lab[:, 0] + 16.0) / 116.0
     f = np.stack([y + lab[:, 1] / 500.0, y, y - lab[:, 2] / 200.0], axis=1)
     delta = 6.0 / 29.0

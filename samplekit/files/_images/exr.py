@@ -1,8 +1,8 @@
 """Multi-part float32 EXR: named parts of one size, their place in the whole image, and how they were made.
 
 Part k has channel Y, or R, G and B, ``zip`` compression, and the metadata as a JSON string in attribute
-``samplekit``, repeated in every part so that a part taken out of the file still says what it is. There is no date:
-the same input gives the same bytes.
+``samplekit``. Every part has the metadata, so that a part taken out of the file still says how it was made. There is no
+date: the same input gives the same bytes.
 """
 
 from __future__ import annotations
@@ -12,16 +12,17 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from samplekit._errors import SamplekitError, UsageError
-from samplekit.files._images import metadata as metadata_
 from samplekit.files._images import reading
-from samplekit.files._images.library import file_name, oiio, one_line
-from samplekit.files._writing import Writer, write_group
+from samplekit.files._images.library import oiio, write_image
+from samplekit.files._images.metadata import KEY, decode_metadata, encode_metadata
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
 
     from numpy.typing import ArrayLike, NDArray
+
+    from samplekit.files._writing import Writer
 
 Window = tuple[int, int, int, int]
 """Left and top edge of the pixels within the whole image, and its width and height, in pixels."""
@@ -35,15 +36,11 @@ class Contents(NamedTuple):
     window: Window
 
 
-def write_parts(
-    path: Path, parts: Mapping[str, ArrayLike], metadata: Mapping[str, Any], window: Window | None = None
-) -> None:
-    """Write an EXR file, or leave what was there.
+def parts_writer(parts: Mapping[str, ArrayLike], metadata: Mapping[str, Any], window: Window | None = None) -> Writer:
+    """Make a writer of an EXR file for `samplekit.files.write_group`; the input is checked here.
 
     Parameters
     ----------
-    path
-        The file.
     parts
         By name: float64[h, w] or float64[h, w, 3], all of one size. Stored as float32: rounded to nearest (so below
         7e-46 to 0); NaN and infinity are kept.
@@ -56,19 +53,11 @@ def write_parts(
     Raises
     ------
     UsageError
-        A shape, name or window that cannot be; a path that cannot be written to.
+        A part has another shape, size or no name, or the window does not hold the pixels.
     SamplekitError
-        A finite value beyond the range of float32; metadata that is no JSON; the writing failed.
+        A finite value is beyond the range of float32, or the metadata is no JSON.
     """
-    write_group([(path, parts_writer(parts, metadata, window))])
-
-
-def parts_writer(parts: Mapping[str, ArrayLike], metadata: Mapping[str, Any], window: Window | None = None) -> Writer:
-    """Make a writer for `samplekit.files.write_group`, with the parameters and errors of `write_parts`.
-
-    The input is checked here, before anything is written.
-    """
-    arrays = {name: to_float32(name, values) for name, values in parts.items()}
+    arrays = {name: _to_float32(name, values) for name, values in parts.items()}
     if "" in arrays:
         raise UsageError("a part of an EXR file needs a name")
     sizes = {values.shape[:2] for values in arrays.values()}
@@ -76,25 +65,11 @@ def parts_writer(parts: Mapping[str, ArrayLike], metadata: Mapping[str, Any], wi
         raise UsageError("an EXR file needs parts of one size" if sizes else "an EXR file needs at least one part")
     height, width = sizes.pop()
     window = _checked_window(window, width, height)
-    text = metadata_.encode(metadata)
+    text = encode_metadata(metadata)
     specs = [_spec(name, values, window, text) for name, values in arrays.items()]
 
     def write(temporary: Path) -> None:
-        name = file_name(temporary)
-        output = oiio.ImageOutput.create("openexr")
-        if output is None:
-            raise SamplekitError(one_line())
-        try:
-            # After a failed open, writing would end the process.
-            good = output.open(name, specs)
-            for index, values in enumerate(arrays.values()):
-                good = good and (index == 0 or output.open(name, specs[index], "AppendSubimage"))
-                good = good and output.write_image(values)
-            error = output.geterror()
-        finally:
-            closed = output.close()  # always: an open file cannot be removed everywhere
-        if error or not (good and closed):
-            raise SamplekitError(one_line(error, output.geterror()))
+        write_image(temporary, "openexr", specs, list(arrays.values()))
         _verify(temporary, arrays, text, window)
 
     return write
@@ -111,7 +86,7 @@ def read_parts(path: Path) -> Contents:
     Raises
     ------
     UsageError
-        No such file, or one that samplekit did not write.
+        There is no such file, or samplekit did not write it.
     SamplekitError
         The file is damaged.
     """
@@ -121,15 +96,15 @@ def read_parts(path: Path) -> Contents:
     return Contents(parts, metadata, window)
 
 
-def to_float32(name: str, values: ArrayLike) -> NDArray[np.float32]:
-    """float32[h, w, 1 or 3] of one part.
+def _to_float32(name: str, values: ArrayLike) -> NDArray[np.float32]:
+    """Return the values of one part as float32[h, w, 1 or 3].
 
     Raises
     ------
     UsageError
-        Another shape, or no pixels.
+        The part has another shape, or no pixels.
     SamplekitError
-        A finite value beyond the range of float32, which would be stored as infinity.
+        A finite value is beyond the range of float32, and would be stored as infinity.
     """
     array = np.asarray(values, np.float64)
     if not (array.ndim == 2 or (array.ndim == 3 and array.shape[2] == 3)) or array.size == 0:
@@ -164,7 +139,7 @@ def _spec(name: str, values: NDArray[np.float32], window: Window, text: str) -> 
     spec.attribute("oiio:subimagename", name)
     spec.attribute("compression", "zip")
     spec.attribute("DateTime", "")  # left to itself OpenImageIO stores the time of writing
-    spec.attribute(metadata_.KEY, text)
+    spec.attribute(KEY, text)
     return spec
 
 
@@ -172,8 +147,8 @@ def _read(path: Path) -> tuple[dict[str, NDArray[np.float32]], dict[str, Any], W
     with reading.opened(path) as file:
         if file.format_name() != "openexr":
             raise UsageError(f"it is a {file.format_name()} file, not EXR")
-        specs = reading.specs(file)
-        metadata = reading.metadata(specs[0])
+        specs = reading.part_specs(file)
+        metadata = decode_metadata(specs[0].get_string_attribute(KEY))
         stored = {}
         for index, spec in enumerate(specs):
             name = spec.get_string_attribute("oiio:subimagename")
@@ -187,10 +162,9 @@ def _read(path: Path) -> tuple[dict[str, NDArray[np.float32]], dict[str, Any], W
 def _verify(path: Path, arrays: Mapping[str, NDArray[np.float32]], text: str, window: Window) -> None:
     """Compare bit for bit: a success that OpenImageIO reports is no proof."""
     stored, metadata, stored_window = _read(path)
-    same = list(stored) == list(arrays) and metadata_.encode(metadata) == text and stored_window == window
+    same = list(stored) == list(arrays) and encode_metadata(metadata) == text and stored_window == window
     if not same or any(
-        stored[name].shape != values.shape or not np.array_equal(stored[name].view(np.uint32), values.view(np.uint32))
-        for name, values in arrays.items()
+        not np.array_equal(stored[name].view(np.uint32), values.view(np.uint32)) for name, values in arrays.items()
     ):
         raise SamplekitError("what was read back is not what was written")
 

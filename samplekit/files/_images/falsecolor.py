@@ -10,7 +10,7 @@ import numpy as np
 
 from samplekit._errors import UsageError
 from samplekit.files._images import diverging
-from samplekit.files._images.legend import BACKGROUND, Facts, strip
+from samplekit.files._images.legend import BACKGROUND, number, pixel_count, strip
 from samplekit.files._images.png import RESERVED
 
 if TYPE_CHECKING:
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 _NARROW = 192
 _WIDE = 256
 _TALL = 4096
+"""Pixels: an image less wide than the first is enlarged to the second, unless it would be taller than the third."""
 
 
 def error_picture(
@@ -48,36 +49,48 @@ def error_picture(
     Raises
     ------
     UsageError
-        Another shape, no pixels, or a scale that is not finite and above 0.
+        The scale is not finite and above 0.
     """
-    values = np.asarray(error, np.float64)
-    if not (values.ndim == 2 or (values.ndim == 3 and values.shape[2] == 3)) or values.size == 0:
-        raise UsageError(f"an error image must have shape [h, w] or [h, w, 3], not {list(values.shape)}")
-    if scale is not None and not (math.isfinite(scale) and scale > 0.0):
+    if scale is not None and not 0.0 < scale < math.inf:
         raise UsageError(f"the scale of an error image must be finite and above 0, not {scale}")
+    values = np.asarray(error, np.float64)
     finite: NDArray[np.bool_] = np.isfinite(values)
     values = np.where(finite, values, 0.0)
     if values.ndim == 3:
         finite = np.asarray(finite.all(axis=2))
         strongest = np.abs(values).argmax(axis=2)[:, :, None]
         values = np.where(finite, np.take_along_axis(values, strongest, axis=2)[:, :, 0], 0.0)
-    magnitude = np.abs(values)
-    largest = float(magnitude.max())
     if scale is None:
-        scale = rounded_up(largest)
-    picture = diverging.colours(values, scale)
+        scale = rounded_up(float(np.abs(values).max()))
+    # A scale of 0 means that every error is 0.
+    picture = diverging.colours(values, scale or 1.0)
     picture[~finite] = RESERVED
-    factor = enlargement(values.shape[1], values.shape[0])
-    facts = Facts(
-        title=title or "",
-        scale=scale,
-        largest=largest,
-        beyond=int((magnitude > scale).sum()),
-        invalid=int((~finite).sum()),
-        pixels=finite.size,
-        enlarged=factor,
-    )
-    return _assembled(np.repeat(np.repeat(picture, factor, axis=0), factor, axis=1), facts), scale
+    height, width = values.shape
+    factor = enlargement(width, height)
+    phrases = _phrases(np.abs(values), finite, scale, factor)
+    above = np.full((height * factor, max(width * factor, _WIDE), 3), BACKGROUND, np.uint8)
+    above[:, : width * factor] = picture.repeat(factor, axis=0).repeat(factor, axis=1)
+    below = strip(title or "", phrases, int((~finite).sum()), scale, above.shape[1])
+    return np.concatenate([above, below]), scale
+
+
+def _phrases(magnitude: NDArray[np.float64], finite: NDArray[np.bool_], scale: float, factor: int) -> list[str]:
+    """State in words what the picture shows; the strip itself states the number of pixels that are not finite."""
+    largest = float(magnitude.max())
+    phrases = ["error = image - reference"]
+    if not finite.any():
+        phrases.append("scale 0: no finite error")
+    elif largest == 0.0:
+        phrases.append(f"exact: {'every error' if finite.all() else 'every finite error'} is 0")
+        phrases.append(f"scale ±{number(scale)}" if scale > 0.0 else "scale 0")
+    else:
+        phrases += [f"scale ±{number(scale)}", f"largest |error| {number(largest)}"]
+    beyond = int((magnitude > scale).sum())
+    if beyond:
+        phrases.append(f"{pixel_count(beyond)} beyond the scale")
+    if factor > 1:
+        phrases.append(f"1 pixel shown as {factor} x {factor}")
+    return phrases
 
 
 def rounded_up(value: float) -> float:
@@ -94,11 +107,3 @@ def enlargement(width: int, height: int) -> int:
     if width >= _NARROW:
         return 1
     return max(1, min(-(-_WIDE // width), _TALL // height))
-
-
-def _assembled(picture: NDArray[np.uint8], facts: Facts) -> NDArray[np.uint8]:
-    height, width, _ = picture.shape
-    room = max(width, _WIDE)
-    above = np.full((height, room, 3), BACKGROUND, np.uint8)
-    above[:, :width] = picture
-    return np.concatenate([above, strip(facts, room)])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any
 
-from samplekit._errors import SamplekitError
+from samplekit._errors import SamplekitError, UsageError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -14,13 +14,13 @@ KEY = "samplekit"
 """Name of the string attribute that holds the JSON."""
 
 
-def encode(metadata: Mapping[str, Any]) -> str:
+def encode_metadata(metadata: Mapping[str, Any]) -> str:
     """Return the same text for the same metadata: keys in order, ASCII.
 
     Raises
     ------
     SamplekitError
-        Something that JSON cannot hold, NaN and infinity among it.
+        JSON cannot hold a value; NaN and infinity are such values.
     """
     try:
         return json.dumps(dict(metadata), sort_keys=True, allow_nan=False)
@@ -32,17 +32,21 @@ def _refuse(constant: str) -> None:
     raise ValueError(f"{constant} is no JSON")
 
 
-def decode(text: str) -> dict[str, Any]:
-    """Return the metadata in the text of an attribute.
+def decode_metadata(text: str) -> dict[str, Any]:
+    """Return the metadata in the text of an attribute, which is empty where the image has none.
 
     Raises
     ------
+    UsageError
+        There is none, so samplekit did not write the image.
     SamplekitError
-        No JSON object.
+        The text is no JSON object.
     """
+    if not text:
+        raise UsageError("it was not made by samplekit: it has no samplekit metadata")
     try:
         metadata = json.loads(text, parse_constant=_refuse)
-        # Half a character, which JSON can write and no terminal can show, ends here as well.
+        # JSON can write half of a character, which no terminal can show: that is refused here as well.
         json.dumps(metadata, ensure_ascii=False).encode()
     except (ValueError, RecursionError) as error:
         raise SamplekitError(f"its metadata is damaged: {error}") from None

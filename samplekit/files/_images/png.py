@@ -1,4 +1,4 @@
-"""Eight-bit PNG: linear values encoded as sRGB for the eye, with how they were made in a text chunk ``samplekit``."""
+"""Eight-bit PNG: linear values encoded as sRGB for the eye; a text chunk ``samplekit`` says how they were made."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from samplekit._errors import SamplekitError, UsageError
-from samplekit.files._images import metadata as metadata_
 from samplekit.files._images import reading
-from samplekit.files._images.library import file_name, oiio, one_line
+from samplekit.files._images.library import oiio, write_image
+from samplekit.files._images.metadata import KEY, decode_metadata, encode_metadata
 from samplekit.files._writing import Writer, write_group
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ RESERVED = (255, 0, 255)
 
 
 def encode_srgb(array: ArrayLike) -> NDArray[np.uint8]:
-    """Linear values as sRGB of eight bits (IEC 61966-2-1), clamped to [0, 1] and rounded to nearest.
+    """Encode linear values as sRGB of eight bits (IEC 61966-2-1), clamped to [0, 1] and rounded to nearest.
 
     Parameters
     ----------
@@ -34,15 +34,8 @@ def encode_srgb(array: ArrayLike) -> NDArray[np.uint8]:
     -------
     uint8[h, w, 3]
         Pixels with a NaN or an infinity in any channel have the colour `RESERVED`.
-
-    Raises
-    ------
-    UsageError
-        Another shape, or no pixels.
     """
     linear = np.asarray(array, np.float64)
-    if not (linear.ndim == 2 or (linear.ndim == 3 and linear.shape[2] == 3)) or linear.size == 0:
-        raise UsageError(f"an image must have shape [h, w] or [h, w, 3], not {list(linear.shape)}")
     finite = np.isfinite(linear)
     linear = np.clip(np.where(finite, linear, 0.0), 0.0, 1.0)
     encoded = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
@@ -59,9 +52,9 @@ def write_png(path: Path, pixels: NDArray[np.uint8], metadata: Mapping[str, Any]
     Raises
     ------
     UsageError
-        Pixels of another shape or type; a path that cannot be written to.
+        The pixels have another shape or type, or the path cannot be written to.
     SamplekitError
-        Metadata that is no JSON; the writing failed.
+        The metadata is no JSON, or the writing failed.
     """
     write_group([(path, png_writer(pixels, metadata))])
 
@@ -74,27 +67,17 @@ def png_writer(pixels: NDArray[np.uint8], metadata: Mapping[str, Any]) -> Writer
     if pixels.dtype != np.uint8 or pixels.ndim != 3 or pixels.shape[2] != 3 or pixels.size == 0:
         raise UsageError(f"PNG needs uint8[h, w, 3], not {pixels.dtype}{list(pixels.shape)}")
     pixels = np.ascontiguousarray(pixels)
-    text = metadata_.encode(metadata)
+    text = encode_metadata(metadata)
     spec = oiio.ImageSpec(pixels.shape[1], pixels.shape[0], 3, oiio.UINT8)
     oiio.set_colorspace(spec, "srgb_rec709_scene")
-    spec.attribute(metadata_.KEY, text)
+    spec.attribute(KEY, text)
     # The default level takes five times as long for a tenth of the size.
     spec.attribute("png:compressionLevel", 2)
 
     def write(temporary: Path) -> None:
-        output = oiio.ImageOutput.create("png")
-        if output is None:
-            raise SamplekitError(one_line())
-        try:
-            # After a failed open, writing would end the process.
-            good = output.open(file_name(temporary), spec) and output.write_image(pixels)
-        finally:
-            closed = output.close()  # always: an open file cannot be removed everywhere
-        error = output.geterror()  # on a full disk every call has said True, and this alone tells
-        if error or not (good and closed):
-            raise SamplekitError(one_line(error))
-        stored, metadata = read_png(temporary)
-        if not np.array_equal(stored, pixels) or metadata_.encode(metadata) != text:
+        write_image(temporary, "png", [spec], [pixels])
+        stored, found = read_png(temporary)
+        if not np.array_equal(stored, pixels) or encode_metadata(found) != text:
             raise SamplekitError("what was read back is not what was written")
 
     return write
@@ -106,7 +89,7 @@ def read_png(path: Path) -> tuple[NDArray[np.uint8], dict[str, Any]]:
     Raises
     ------
     UsageError
-        No such file, or one that samplekit did not write.
+        There is no such file, or samplekit did not write it.
     SamplekitError
         The file is damaged.
     """
@@ -114,5 +97,5 @@ def read_png(path: Path) -> tuple[NDArray[np.uint8], dict[str, Any]]:
         if file.format_name() != "png":
             raise UsageError(f"it is a {file.format_name()} file, not PNG")
         spec = file.spec()
-        metadata = reading.metadata(spec)
+        metadata = decode_metadata(spec.get_string_attribute(KEY))
         return reading.pixels(file, 0, spec, oiio.UINT8), metadata

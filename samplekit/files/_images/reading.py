@@ -1,18 +1,17 @@
-"""Opening image files that may be missing, damaged or somebody else's."""
+"""Opening image files that may be missing, damaged or of another program, and what `samplekit info` shows of them."""
 
 from __future__ import annotations
 
 import contextlib
-import struct
 import zlib
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from samplekit._errors import SamplekitError, UsageError
-from samplekit.files._images import metadata as metadata_
 from samplekit.files._images.library import file_name, oiio, one_line
-from samplekit.files._writing import shown
+from samplekit.files._images.metadata import KEY, decode_metadata
+from samplekit.files._reading import errors_naming
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -23,6 +22,43 @@ _EXR = b"\x76\x2f\x31\x01"
 _PNG = b"\x89PNG\r\n\x1a\n"
 
 
+def read_info(path: Path) -> dict[str, Any]:
+    """Size, parts and metadata of an EXR or PNG file that samplekit wrote. Reads no pixels.
+
+    Returns
+    -------
+    dict
+        ``format`` (``"openexr"`` or ``"png"``), ``width``, ``height``, ``window`` (left, top, and size of the whole
+        image), ``parts`` (a list of ``name``, ``channels``, ``type``; a PNG has one part without a name),
+        ``metadata``. All of it is JSON.
+
+    Raises
+    ------
+    UsageError
+        There is no such file, or samplekit did not write it.
+    SamplekitError
+        The file is damaged.
+    """
+    with opened(path) as file:
+        specs = part_specs(file)
+        first = specs[0]
+        return {
+            "format": file.format_name(),
+            "width": first.width,
+            "height": first.height,
+            "window": [first.x, first.y, first.full_width, first.full_height],
+            "parts": [
+                {
+                    "name": spec.get_string_attribute("oiio:subimagename"),
+                    "channels": list(spec.channelnames),
+                    "type": str(spec.format),
+                }
+                for spec in specs
+            ],
+            "metadata": decode_metadata(first.get_string_attribute(KEY)),
+        }
+
+
 @contextlib.contextmanager
 def opened(path: Path) -> Iterator[oiio.ImageInput]:
     """Open an EXR or PNG file for reading.
@@ -30,60 +66,47 @@ def opened(path: Path) -> Iterator[oiio.ImageInput]:
     Raises
     ------
     UsageError
-        No such file, or one of another kind.
+        There is no such file, or it is of another kind.
     SamplekitError
         The file is damaged.
     """
-    _check_signature(path)
-    try:
-        file = oiio.ImageInput.open(file_name(path))
-        if file is None:
-            raise SamplekitError(f"it is damaged: {one_line()}")
+    with errors_naming(path):
+        _check_signature(path)
         try:
-            yield file
-        finally:
-            file.close()
-    except UsageError as error:
-        raise UsageError(f"cannot read {shown(path)}: {error}") from None
-    except SamplekitError as error:
-        raise SamplekitError(f"cannot read {shown(path)}: {error}") from None
-    except (UnicodeDecodeError, RuntimeError, MemoryError) as error:  # what a damaged header makes of the bindings
-        raise SamplekitError(f"cannot read {shown(path)}: it is damaged: {' '.join(str(error).split())}") from None
+            file = oiio.ImageInput.open(file_name(path))
+            if file is None:
+                raise SamplekitError(f"it is damaged: {one_line()}")
+            with contextlib.closing(file):
+                yield file
+        except (UnicodeDecodeError, RuntimeError, MemoryError) as error:  # the bindings raise them for damaged headers
+            raise SamplekitError(f"it is damaged: {' '.join(str(error).split())}") from None
 
 
 def _check_signature(path: Path) -> None:
-    try:
-        if path.exists() and not path.is_file():  # opening a pipe would wait for its writer
-            raise UsageError(f"cannot read {shown(path)}: it is not a regular file")
-        with path.open("rb") as file:
-            start = file.read(8)
-    except (OSError, ValueError) as error:
-        reason = error.strerror if isinstance(error, OSError) else str(error)
-        raise UsageError(f"cannot read {shown(path)}: {reason}") from None
+    with path.open("rb") as file:
+        start = file.read(8)
     if start == _PNG:
-        _check_chunks(path)
+        _check_chunks(path.read_bytes())
     elif not start.startswith(_EXR):
-        raise UsageError(f"cannot read {shown(path)}: it is neither an EXR nor a PNG image")
+        raise UsageError("it is neither an EXR nor a PNG image")
 
 
-def _check_chunks(path: Path) -> None:
+def _check_chunks(data: bytes) -> None:
     """Refuse a PNG file of which a chunk is damaged or missing: libpng would complain of it on the terminal."""
-    data = memoryview(path.read_bytes())
-    position = len(_PNG)
-    kind = b""
+    end, kind = len(_PNG), b""
     while kind != b"IEND":
-        (length,) = struct.unpack(">I", data[position : position + 4]) if len(data) >= position + 12 else (len(data),)
-        end = position + 12 + length
+        start = end
+        # Length, kind, content and checksum.
+        end = start + 12 + int.from_bytes(data[start : start + 4])
         if end > len(data):
-            raise SamplekitError(f"cannot read {shown(path)}: it is damaged: it ends early")
-        kind = bytes(data[position + 4 : position + 8])
-        if zlib.crc32(data[position + 4 : end - 4]) != int.from_bytes(data[end - 4 : end], "big"):
-            raise SamplekitError(f"cannot read {shown(path)}: it is damaged: the checksum of its {kind!r} is wrong")
-        position = end
+            raise SamplekitError("it is damaged: it ends early")
+        kind = data[start + 4 : start + 8]
+        if zlib.crc32(data[start + 4 : end - 4]) != int.from_bytes(data[end - 4 : end]):
+            raise SamplekitError(f"it is damaged: the checksum of its {kind!r} is wrong")
 
 
-def specs(file: oiio.ImageInput) -> list[oiio.ImageSpec]:
-    """Return what the file says of each of its parts."""
+def part_specs(file: oiio.ImageInput) -> list[oiio.ImageSpec]:
+    """Return the specification of each part of the file."""
     found: list[oiio.ImageSpec] = []
     while file.seek_subimage(len(found), 0):
         found.append(file.spec())
@@ -102,17 +125,3 @@ def pixels(file: oiio.ImageInput, part: int, spec: oiio.ImageSpec, kind: Any) ->
     if values is None or file.has_error:
         raise SamplekitError(f"it is damaged: {one_line(file.geterror())}")
     return np.asarray(values).reshape(spec.height, spec.width, spec.nchannels)
-
-
-def metadata(spec: oiio.ImageSpec) -> dict[str, Any]:
-    """Return the metadata of one part.
-
-    Raises
-    ------
-    UsageError
-        There is none: the file is not ours.
-    """
-    text = spec.get_string_attribute(metadata_.KEY)
-    if not text:
-        raise UsageError("it was not made by samplekit: it has no samplekit metadata")
-    return metadata_.decode(text)

@@ -10,7 +10,7 @@ from samplekit._errors import UsageError
 from samplekit.files._images.exr import Window, parts_writer
 from samplekit.files._images.falsecolor import error_picture
 from samplekit.files._images.png import encode_srgb, png_writer
-from samplekit.files._stem import write_stem
+from samplekit.files._writing import write_stem
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -50,8 +50,7 @@ def write_rendering(
     metadata
         How the image was made: anything that JSON holds, stored in every file; ``STEM.error.png`` adds ``error_scale``.
     window
-        Of a crop: ``(x, y, width, height)``, the place of its first pixel in the whole image, and the whole image's
-        size.
+        For a crop ``(x, y, width, height)``: the first pixel's place in the whole image, and the whole image's size.
     scale, title
         Scale and title of the error picture, as `samplekit.files._images.falsecolor.error_picture` takes them.
 
@@ -63,9 +62,9 @@ def write_rendering(
     Raises
     ------
     UsageError
-        Arrays of another shape; a window that does not hold them; a path that cannot be written to.
+        An array has another shape, the window does not hold it, or the path cannot be written to.
     SamplekitError
-        A value that float32 cannot hold, metadata that is no JSON, or the writing failed: no file has changed.
+        Float32 cannot hold a value, the metadata is no JSON, or the writing failed: no file has changed.
     """
     given = {"image": image, "reference": reference, "error": error}
     parts = {name: np.asarray(values, np.float64) for name, values in given.items() if values is not None}

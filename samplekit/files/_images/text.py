@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import bisect
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -13,6 +14,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 FONT = "DroidSans"
+_COLOUR = (0.9, 0.9, 0.9)
 
 
 class Label(NamedTuple):
@@ -44,20 +46,16 @@ def fitted(text: str, size: int, room: int) -> str:
     """Return the text, cut short with dots if it is wider than ``room`` pixels."""
     if width(text, size) <= room:
         return text
-    low, high = 0, len(text)
-    while low < high:
-        middle = (low + high + 1) // 2
-        if width(text[:middle].rstrip() + "...", size) <= room:
-            low = middle
-        else:
-            high = middle - 1
-    return text[:low].rstrip() + "..."
+
+    def shortened(letters: int) -> str:
+        return text[:letters].rstrip() + "..."
+
+    too_many = bisect.bisect_right(range(len(text)), room, key=lambda letters: width(shortened(letters), size))
+    return shortened(max(too_many - 1, 0))
 
 
-def draw(
-    pixels: NDArray[np.uint8], labels: list[Label], size: int, colour: tuple[float, float, float]
-) -> NDArray[np.uint8]:
-    """Return the pixels uint8[h, w, 3] with labels of ``size`` pixels on them, in a colour of components in [0, 1].
+def draw(pixels: NDArray[np.uint8], labels: list[Label], size: int) -> NDArray[np.uint8]:
+    """Return the pixels uint8[h, w, 3] with labels on them, light grey and ``size`` pixels high.
 
     Raises
     ------
@@ -67,6 +65,6 @@ def draw(
     canvas = oiio.ImageBuf(np.ascontiguousarray(pixels))
     for label in labels:
         algorithm = oiio.ImageBufAlgo.render_text
-        if not algorithm(canvas, label.x, label.y, label.text, size, FONT, colour, label.align, "baseline"):
+        if not algorithm(canvas, label.x, label.y, label.text, size, FONT, _COLOUR, label.align, "baseline"):
             raise SamplekitError(f"OpenImageIO cannot draw text: {one_line(canvas.geterror())}")
     return np.asarray(canvas.get_pixels(oiio.UINT8), np.uint8)

@@ -1,5 +1,5 @@
-"""Point sets in files: as text, as an array, or as a picture.
+"""Point sets in files, as text or as an array.
 
-``write`` chooses by the file's ending; ``picture`` lays out what ``svg`` and ``raster`` draw. Nothing is imported here,
-so that importing the package costs nothing.
+``formats`` chooses the format by the file's ending. Nothing is imported here, so that importing the package costs
+nothing.
 """

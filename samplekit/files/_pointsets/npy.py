@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import io
 import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from samplekit._errors import SamplekitError, UsageError
+from samplekit.files._writing import data_writer
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -16,28 +18,16 @@ if TYPE_CHECKING:
 
     from samplekit.files._writing import Writer
 
-
 _MAGIC = b"\x93NUMPY"
 _HEADERS = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.read_array_header_2_0}
 
 
 def npy_writer(points: NDArray[np.float64]) -> Writer:
     """Make a writer for `samplekit.files.write_group` of float64[R, N, D], to be read with `numpy.load`."""
-    points = np.ascontiguousarray(points, np.float64)
-
-    def write(temporary: Path) -> None:
-        # An open file, for given a path NumPy may change its ending.
-        with temporary.open("wb") as file:
-            np.save(file, points, allow_pickle=False)
-        try:
-            stored = np.load(temporary, allow_pickle=False)
-        except (ValueError, EOFError) as error:
-            raise SamplekitError(f"what was written cannot be read back: {error}") from None
-        # As integers: NaN equals itself, and -0 is not 0.
-        if stored.shape != points.shape or not np.array_equal(stored.view(np.uint64), points.view(np.uint64)):
-            raise SamplekitError("what was read back is not what was written")
-
-    return write
+    points = np.ascontiguousarray(points)
+    header = io.BytesIO()
+    np.lib.format.write_array_header_1_0(header, np.lib.format.header_data_from_array_1_0(points))
+    return data_writer([header.getvalue(), points.data])
 
 
 def read_npy(path: Path) -> NDArray[np.float64]:
@@ -46,7 +36,7 @@ def read_npy(path: Path) -> NDArray[np.float64]:
     Raises
     ------
     UsageError
-        Another file, or an array of another kind; Python objects are never unpickled.
+        The file is of another kind, or its array is; Python objects are never unpickled.
     SamplekitError
         The file is damaged.
     """

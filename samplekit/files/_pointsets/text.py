@@ -1,8 +1,17 @@
-"""Points from text: our own CSV, plain columns, and the text of UTK, distinguished by their contents.
+"""Points as text: our own CSV, the coordinates alone, and the text of UTK, the uniform sampling toolkit.
 
-A line a point, its coordinates separated by commas or by spaces. Our own CSV begins with the header
-``realisation,index,x0,...``; another first line without numbers is a header too, and skipped. A line that begins with
-``#`` ends a set (UTK writes one between realisations); empty lines mean nothing.
+Each line is a point, with its coordinates separated by commas or by spaces. Numbers are the shortest that read back as
+the same float64.
+
+- ``.csv``, our own, begins with the header ``realisation,index,x0,...``.
+- ``.plain.csv`` has the coordinates alone, as Samplin' Safari reads them: it would take a header for a point
+  (src/sampler/CSVFile.cpp in wkjarosz/SamplinSafari).
+- ``.dat``, UTK's, has a line ``#`` between one realisation and the next, and none after the last
+  (utk-team.github.io/utk/usingutk/ExeUtk, "File formats"; include/utk/utils/PointsetIO.hpp in utk-team/utk, whose
+  reader would take an empty line for a point).
+
+The reader distinguishes them by their contents. It skips any other first line without numbers as a header, and empty
+lines; a line that begins with ``#`` ends a set.
 """
 
 from __future__ import annotations
@@ -14,13 +23,63 @@ import numpy as np
 from samplekit._errors import UsageError
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
     from pathlib import Path
 
     from numpy.typing import NDArray
 
+    Progress = Callable[[int, int], None]
+
 _OURS = ["realisation", "index"]
+_BLOCK = 1 << 14
+"""Points of a piece of text: large enough to be fast, small enough that a piece stays below some megabytes."""
 _SHOWN = 30
 """Letters of a faulty line that a message shows."""
+
+
+def csv_text(points: NDArray[np.float64], progress: Progress = lambda _done, _total: None) -> Iterator[str]:
+    """Give the points as text in pieces, so that the whole of it is never in memory.
+
+    Parameters
+    ----------
+    points
+        float64[R, N, D].
+    progress
+        Called with the numbers of points done and to do.
+
+    Yields
+    ------
+    str
+        The header ``realisation,index,x0,x1,...``, then whole lines ending in a line feed. Numbers are the shortest
+        that read back as the same float64.
+    """
+    yield ",".join([*_OURS, *(f"x{d}" for d in range(points.shape[2]))]) + "\n"
+    for r, start, rows in _blocks(points, progress):
+        yield "".join(f"{r},{index},{','.join(map(repr, row))}\n" for index, row in enumerate(rows, start))
+
+
+def plain_csv_text(points: NDArray[np.float64], progress: Progress) -> Iterator[str]:
+    """Give the coordinates of one set float64[1, N, D] as text in pieces, as in `csv_text`."""
+    for _, _, rows in _blocks(points, progress):
+        yield "".join(f"{','.join(map(repr, row))}\n" for row in rows)
+
+
+def utk_text(points: NDArray[np.float64], progress: Progress) -> Iterator[str]:
+    """Give points float64[R, N, D] as UTK's text in pieces, as in `csv_text`."""
+    for r, start, rows in _blocks(points, progress):
+        if r > 0 and start == 0:
+            yield "#\n"
+        yield "".join(f"{' '.join(map(repr, row))}\n" for row in rows)
+
+
+def _blocks(points: NDArray[np.float64], progress: Progress) -> Iterator[tuple[int, int, list[list[float]]]]:
+    """Give the points in blocks: the realisation, the index of the first point, and the coordinates."""
+    realizations, count, _ = points.shape
+    for r in range(realizations):
+        for start in range(0, count, _BLOCK):
+            rows = points[r, start : start + _BLOCK].tolist()
+            yield r, start, rows
+            progress(r * count + start + len(rows), realizations * count)
 
 
 def read_text(path: Path) -> NDArray[np.float64]:
@@ -29,7 +88,7 @@ def read_text(path: Path) -> NDArray[np.float64]:
     Raises
     ------
     UsageError
-        The file is no such text: names the line.
+        The file is no such text; the message names the line.
     """
     try:
         text = path.read_bytes().decode("utf-8-sig")
@@ -39,12 +98,12 @@ def read_text(path: Path) -> NDArray[np.float64]:
 
 
 def parse_points(text: str) -> NDArray[np.float64]:
-    """Points float64[R, N, D] from the whole text of a file.
+    """Return the points float64[R, N, D] in the whole text of a file.
 
     Raises
     ------
     UsageError
-        Something that is no number, rows of different lengths, sets of different sizes: names the line.
+        A field is no number, rows differ in length, or sets differ in size; the message names the line.
     """
     sets: list[list[list[float]]] = [[]]
     ours = False
@@ -84,7 +143,7 @@ def parse_points(text: str) -> NDArray[np.float64]:
 
 
 def _numbers(fields: list[str]) -> list[float] | None:
-    """The numbers that the fields are; None if one of them is none."""
+    """Return the fields as numbers; None if one of them is no number."""
     try:
         return list(map(float, fields))
     except ValueError:
@@ -92,17 +151,16 @@ def _numbers(fields: list[str]) -> list[float] | None:
 
 
 def _close(sets: list[list[list[float]]], line: int) -> None:
-    """Begin another set, if the last one has points; all have as many as the first.
+    """Begin another set, if the last one has points.
 
     Raises
     ------
     UsageError
-        The last one has not.
+        The last one has not as many points as the first.
     """
-    if not sets[-1]:
+    last, first = len(sets[-1]), len(sets[0])
+    if not last:
         return
-    if len(sets[-1]) != len(sets[0]):
-        raise UsageError(
-            f"set {len(sets) - 1}, before line {line}, has {len(sets[-1])} points, set 0 has {len(sets[0])}"
-        )
+    if last != first:
+        raise UsageError(f"set {len(sets) - 1}, before line {line}, has {last} points, set 0 has {first}")
     sets.append([])

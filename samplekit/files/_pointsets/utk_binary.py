@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from samplekit._errors import SamplekitError, UsageError
+from samplekit.files._writing import data_writer
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -36,25 +37,11 @@ def utk_binary_writer(points: NDArray[np.float64]) -> Writer:
     Raises
     ------
     UsageError
-        A number of sets, points or dimensions beyond 2^32 - 1.
+        The number of sets, points or dimensions is above 2^32 - 1.
     """
     if max(points.shape) > _MOST:
         raise UsageError(f"a .bin file holds at most {_MOST} sets, points and dimensions, not {max(points.shape)}")
-    header = _HEADER.pack(_MAGIC, _FLOAT64, *points.shape)
-    stored = np.ascontiguousarray(points, "<f8")
-
-    def write(temporary: Path) -> None:
-        with temporary.open("wb") as file:
-            file.write(header)
-            stored.tofile(file)
-        # As integers: NaN equals itself, and -0 is not 0.
-        found = np.fromfile(temporary, "<u8", offset=_HEADER.size)
-        if temporary.stat().st_size != len(header) + stored.nbytes or not np.array_equal(
-            found, stored.view("<u8").ravel()
-        ):
-            raise SamplekitError("what was read back is not what was written")
-
-    return write
+    return data_writer([_HEADER.pack(_MAGIC, _FLOAT64, *points.shape), np.ascontiguousarray(points, "<f8").data])
 
 
 def read_utk_binary(path: Path) -> NDArray[np.float64]:
@@ -63,9 +50,9 @@ def read_utk_binary(path: Path) -> NDArray[np.float64]:
     Raises
     ------
     UsageError
-        The file is none of UTK's, or holds integers.
+        The file is no binary file of UTK, or it holds integers.
     SamplekitError
-        It is damaged.
+        The file is damaged.
     """
     data = path.read_bytes()
     if not data.startswith(_MAGIC):

@@ -8,7 +8,11 @@ import OpenImageIO as oiio
 import pytest
 
 from samplekit._errors import SamplekitError, UsageError
-from samplekit.files._images.exr import read_parts, write_parts
+from samplekit.files import parts_writer, read_parts, write_group
+
+
+def write_parts(path, parts, metadata, window=None):
+    write_group([(path, parts_writer(parts, metadata, window))])
 
 
 def random(*shape, seed=0):
@@ -178,11 +182,11 @@ def test_a_disk_that_takes_no_more_bytes(tmp_path):
     pytest.importorskip("resource")
     script = (
         "import resource, sys, numpy, pathlib; from samplekit._errors import SamplekitError\n"
-        "from samplekit.files._images.exr import write_parts; from samplekit.files._images.png import write_png\n"
+        "from samplekit.files import parts_writer, write_group, write_png\n"
         "resource.setrlimit(resource.RLIMIT_FSIZE, (8192, 8192))\n"
         "noise = numpy.random.default_rng(0).random((100, 100))\n"
         "grey = (noise[:, :, None].repeat(3, 2) * 255).astype('uint8')\n"
-        "for path, write in (('a.exr', lambda path: write_parts(path, {'image': noise}, {})),\n"
+        "for path, write in (('a.exr', lambda path: write_group([(path, parts_writer({'image': noise}, {}))])),\n"
         "                    ('a.png', lambda path: write_png(path, grey, {}))):\n"
         "    pathlib.Path(path).write_bytes(b'old')\n"
         "    try:\n        write(pathlib.Path(path))\n"
@@ -222,10 +226,11 @@ def test_nothing_is_printed(tmp_path, capfd):
 @pytest.mark.skipif(sys.platform in ("win32", "darwin"), reason="no safe fork here")
 def test_a_process_may_be_forked_after_writing(tmp_path):
     script = (
-        "import os, pathlib; from samplekit.files._images.exr import write_parts\n"
-        "write_parts(pathlib.Path('a.exr'), {'image': [[1.0]]}, {})\n"
+        "import os, pathlib; from samplekit.files import parts_writer, write_group\n"
+        "writer = parts_writer({'image': [[1.0]]}, {})\n"
+        "write_group([(pathlib.Path('a.exr'), writer)])\n"
         "child = os.fork()\n"
-        "write_parts(pathlib.Path('a.exr' if child else 'b.exr'), {'image': [[1.0]]}, {})\n"
+        "write_group([(pathlib.Path('a.exr' if child else 'b.exr'), writer)])\n"
         "if child: os.waitpid(child, 0)\n"
     )
     subprocess.run([sys.executable, "-c", script], cwd=tmp_path, check=True, timeout=60)

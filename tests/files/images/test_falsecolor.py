@@ -113,12 +113,6 @@ def test_scales_that_cannot_be(scale):
         error_picture([[1.0]], scale=scale)
 
 
-@pytest.mark.parametrize("shape", [(), (3,), (3, 4, 2), (0, 4), (4, 0)])
-def test_shapes_that_cannot_be(shape):
-    with pytest.raises(UsageError, match="shape"):
-        error_picture(np.zeros(shape))
-
-
 def test_pixels_that_are_not_finite():
     error = np.full((2, 200), 0.25)
     error[0, 0], error[0, 1], error[1, 5] = np.nan, np.inf, -np.inf

@@ -64,12 +64,6 @@ def test_colour():
     assert encode_srgb([[[0.0, 0.5, 1.0]]]).tolist() == [[[0, 188, 255]]]
 
 
-@pytest.mark.parametrize("shape", [(), (3,), (3, 4, 1), (3, 4, 4), (0, 4), (4, 0), (0, 4, 3)])
-def test_other_shapes(shape):
-    with pytest.raises(UsageError, match="shape"):
-        encode_srgb(np.zeros(shape))
-
-
 def test_what_is_written(tmp_path):
     picture = pixels(9, 13, 3)
     metadata = {"command": "«ü» \n", "seed": "3"}

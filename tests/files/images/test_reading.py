@@ -8,9 +8,7 @@ import OpenImageIO as oiio
 import pytest
 
 from samplekit._errors import SamplekitError, UsageError
-from samplekit.files._images.exr import read_parts, write_parts
-from samplekit.files._images.info import read_info
-from samplekit.files._images.png import read_png, write_png
+from samplekit.files import parts_writer, read_info, read_parts, read_png, write_group, write_png
 
 READERS = [read_parts, read_png, read_info]
 
@@ -18,7 +16,8 @@ READERS = [read_parts, read_png, read_info]
 @pytest.fixture
 def pictures(tmp_path):
     values = np.random.default_rng(0).random((20, 13))
-    write_parts(tmp_path / "a.exr", {"image": values, "error": values * 0.1}, {"a": "x" * 200}, window=(1, 2, 30, 40))
+    writer = parts_writer({"image": values, "error": values * 0.1}, {"a": "x" * 200}, window=(1, 2, 30, 40))
+    write_group([(tmp_path / "a.exr", writer)])
     write_png(tmp_path / "a.png", np.random.default_rng(1).integers(0, 256, (20, 13, 3), np.uint8), {"b": 2})
     return tmp_path
 

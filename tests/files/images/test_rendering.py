@@ -4,8 +4,8 @@ import pytest
 
 from samplekit._errors import SamplekitError, UsageError
 from samplekit.files._images.exr import read_parts
-from samplekit.files._images.info import read_info
 from samplekit.files._images.png import encode_srgb, read_png
+from samplekit.files._images.reading import read_info
 from samplekit.files._images.rendering import write_rendering
 
 NAMES = ["a.error.png", "a.exr", "a.png"]
@@ -65,6 +65,13 @@ def test_shapes_must_agree(tmp_path, rendering):
     for reference_, error_ in ((reference[:5], error), (reference, error[:, :5])):
         with pytest.raises(UsageError, match="shape"):
             write_rendering(tmp_path / "a", image, reference_, error_, {})
+    assert not listed(tmp_path)
+
+
+@pytest.mark.parametrize("shape", [(), (3,), (3, 4, 1), (3, 4, 4), (0, 4), (4, 0), (0, 4, 3)])
+def test_other_shapes_are_refused(tmp_path, shape):
+    with pytest.raises(UsageError, match="shape"):
+        write_rendering(tmp_path / "a", *[np.zeros(shape)] * 3, {})
     assert not listed(tmp_path)
 
 

@@ -2,7 +2,7 @@ import itertools
 
 import numpy as np
 
-from samplekit.files._pointsets.csv import csv_text
+from samplekit.files._pointsets.text import csv_text
 
 
 def test_every_bit_comes_back():

@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from samplekit._errors import SamplekitError, UsageError
-from samplekit.files._pointsets.read import read_points
+from samplekit.files._pointsets.formats import read_points, write_points
 from samplekit.files._pointsets.text import parse_points
-from samplekit.files._pointsets.write import write_points
 
 SETS = np.random.default_rng(5).random((3, 7, 2))
 SETS[0, 0] = [0.0, np.nextafter(1.0, 0.0)]

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from samplekit._errors import SamplekitError, UsageError
-from samplekit.files._pointsets.write import write_points
+from samplekit.files._pointsets.formats import write_points
 
 POINTS = np.random.default_rng(1).random((1, 16, 2))
 
@@ -62,7 +62,7 @@ def test_a_failure_half_way_leaves_the_old_file(tmp_path, monkeypatch):
         yield "new, "
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("samplekit.files._pointsets.csv.csv_text", failing)
+    monkeypatch.setattr("samplekit.files._pointsets.formats.csv_text", failing)
     with pytest.raises(SamplekitError, match="No space left"):
         write(path)
     assert path.read_text() == "old"

@@ -113,7 +113,7 @@ def _read(path: Path) -> None:
             if not oiio.ImageBuf(str(path), part, 0).read(part, 0, True):
                 raise ValueError(f"part {part}")
     elif ending in (".npy", ".dat", ".bin") or path.name.endswith(".plain.csv"):
-        from samplekit.files._pointsets.read import read_points
+        from samplekit.files._pointsets.formats import read_points
 
         read_points(path)
     elif ending == ".csv":
@@ -153,7 +153,7 @@ def _promised(words: list[str], answer: Answer, folder: Path) -> list[str]:
 def _points(report: dict, folder: Path) -> list[str]:
     """The points of the report or the file beside those of each realisation alone, the last points first."""
     import samplekit
-    from samplekit.files._pointsets.read import read_points
+    from samplekit.files._pointsets.formats import read_points
 
     shape = (report["realizations"], report["count"], report["dims"])
     if report["files"]:

@@ -1,4 +1,4 @@
-"""The cells that a sampler's promises speak of, as they appear on one axis or in the square of two."""
+"""The cells in which a sampler promises equally many points, projected on one axis or on two."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ if TYPE_CHECKING:
 
 
 class Grid(NamedTuple):
-    """The cells and intervals of a projection that are promised to hold as many points as each other.
+    """The cells and intervals of a projection that are promised to hold equally many points.
 
     Attributes
     ----------
     cells
-        Columns and rows of the finest grid of near-square cells; (1, 1): none is promised.
+        Columns and rows of the finest grid of near-square cells; (1, 1): no grid is promised.
     intervals
-        The intervals of the first and of the second axis, each axis taken alone; 1: none are promised.
+        The intervals of the first and of the second axis, each axis alone; 1: no intervals are promised.
     """
 
     cells: tuple[int, int] = (1, 1)
@@ -32,7 +32,7 @@ def grid_of(promises: Sequence[Promise], count: int, dims: int, axes: tuple[int,
     Parameters
     ----------
     promises
-        What the sampler promises, as its declaration has it.
+        What the sampler promises, from its declaration.
     count, dims
         Size of the set and its dimensions.
     axes
@@ -55,7 +55,7 @@ def grid_of(promises: Sequence[Promise], count: int, dims: int, axes: tuple[int,
 
 
 def describe_grids(promises: Sequence[Promise], count: int, dims: int) -> str:
-    """Say what is promised of sets of ``count`` points; empty if it is nothing."""
+    """Say in words which cells of sets of ``count`` points are promised; empty if there are none."""
     captions = [
         promise.caption(count, dims)
         for promise in promises

@@ -1,4 +1,4 @@
-"""Write points to a file of the kind that its ending says, whole or not at all."""
+"""Points in files of the format that the file's ending names: written whole or not at all, and read back."""
 
 from __future__ import annotations
 
@@ -7,7 +7,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit._errors import UsageError
-from samplekit.files._writing import shown, write_group
+from samplekit.files._pointsets.npy import npy_writer, read_npy
+from samplekit.files._pointsets.text import csv_text, plain_csv_text, read_text, utk_text
+from samplekit.files._pointsets.utk_binary import read_utk_binary, utk_binary_writer
+from samplekit.files._reading import errors_naming
+from samplekit.files._writing import shown, text_writer, write_group
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -24,12 +28,12 @@ PICTURES = (".svg", ".png", ".pdf")
 
 
 def check_path(path: Path, realizations: int) -> str:
-    """Return the ending of the path in lower case, once it is known that such points fit into such a file.
+    """Return the ending of the path in lower case, and check that such a file holds so many realisations.
 
     Raises
     ------
     UsageError
-        No ending of a file of points or of a picture, or several realisations where there is room for one.
+        The ending is none of points or of pictures, or the file holds one realisation and there are several.
     """
     ending = path.suffix.lower()
     if path.name.lower().endswith(PLAIN) and len(path.name) > len(PLAIN):
@@ -63,7 +67,7 @@ def write_points(
     Raises
     ------
     UsageError
-        An unknown ending, or points that such a file cannot hold; a path that cannot be written to.
+        The ending is unknown, such a file cannot hold the points, or the path cannot be written to.
     SamplekitError
         The writing failed.
     """
@@ -77,21 +81,53 @@ def write_points(
 
 
 def _writer(ending: str, points: NDArray[np.float64], progress: Callable[[int, int], None]) -> Writer:
-    # Each format imports its own: a table of numbers needs no other library.
     if ending == ".npy":
-        from samplekit.files._pointsets.npy import npy_writer
-
         return npy_writer(points)
     if ending == ".bin":
-        from samplekit.files._pointsets.utk_binary import utk_binary_writer
-
         return utk_binary_writer(points)
-    from samplekit.files._writing import text_writer
+    text = {".csv": csv_text, PLAIN: plain_csv_text, ".dat": utk_text}[ending]
+    return text_writer(text(points, progress))
 
-    if ending == ".dat":
-        from samplekit.files._pointsets.utk_text import utk_text
 
-        return text_writer(utk_text(points, progress))
-    from samplekit.files._pointsets.csv import csv_text, plain_csv_text
+def read_points(path: Path) -> NDArray[np.float64]:
+    """Read points from a file of any kind that `write_points` writes: ``.npy``, ``.bin``, or text.
 
-    return text_writer(csv_text(points, progress) if ending == ".csv" else plain_csv_text(points[0], progress))
+    Parameters
+    ----------
+    path
+        A file with sets of equal numbers of points.
+
+    Returns
+    -------
+    float64[R, N, D], each of R, N and D at least 1, in [0, 1).
+
+    Raises
+    ------
+    UsageError
+        There is no such file, or it is a folder or of another kind; values are outside [0, 1) or NaN; rows differ in
+        length.
+    SamplekitError
+        The file is damaged.
+    """
+    with errors_naming(path):
+        points = _read(path)
+        if points.size == 0:
+            raise UsageError("it holds no points")
+        _check_values(points)
+        return points
+
+
+def _read(path: Path) -> NDArray[np.float64]:
+    ending = path.suffix.lower()
+    if ending in PICTURES:
+        raise UsageError("a picture does not hold the numbers of its points: expected .npy, .bin, or numbers as text")
+    return {".npy": read_npy, ".bin": read_utk_binary}.get(ending, read_text)(path)
+
+
+def _check_values(points: NDArray[np.float64]) -> None:
+    inside = (points >= 0.0) & (points < 1.0)  # NaN is neither
+    if inside.all():
+        return
+    index, point, dimension = (int(i) for i in np.argwhere(~inside)[0])
+    value = float(points[index, point, dimension])
+    raise UsageError(f"set {index}, point {point}, dimension {dimension} is {value!r}: expected values in [0, 1)")

@@ -1,7 +1,7 @@
 import pytest
 
 from samplekit._specs import GridStrata, LatinStrata, MinimumDistance, Net, OrthogonalArray
-from samplekit.files._pointsets.grids import Grid, describe_grids, grid_of
+from samplekit.plots._grids import Grid, describe_grids, grid_of
 
 
 def test_a_grid_over_all_dimensions_is_projected():
