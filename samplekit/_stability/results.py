@@ -156,7 +156,7 @@ class Stability:
         lines.append(f"{len(self.cells)} cells: {', '.join(f'{number} {kind}' for kind, number in tally.items())}")
         lines += [f"  {kind}: {meaning}" for kind, meaning in MEANINGS.items() if kind != "right" and kind in tally]
         lines += [
-            f"wrong: {cell.name}:{cell.extreme}, {cell.sampler}, {cell.count}: {cell.verdict.reason}"
+            f"wrong: {scene_text(cell.name, cell.extreme)}, {cell.sampler}, {cell.count}: {cell.verdict.reason}"
             for cell in self.wrong
         ]
         return lines

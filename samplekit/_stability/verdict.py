@@ -39,15 +39,13 @@ class Verdict:
     reason: str = ""
 
 
-def judge(measured: Measurement, *, randomized: bool, finite_variance: bool) -> Verdict:
+def judge(measured: Measurement, *, finite_variance: bool) -> Verdict:
     """Judge one measurement; a second one with another seed must confirm ``wrong``.
 
     Parameters
     ----------
     measured
         The measurement.
-    randomized
-        Whether the realisations of the sampler differ.
     finite_variance
         Whether the values of the scene have a finite variance.
     """
@@ -70,7 +68,7 @@ def judge(measured: Measurement, *, randomized: bool, finite_variance: bool) -> 
         return Verdict("precision lost", f"rounding {rounding:.2g}, error of sampling {sampling:.2g}")
     if within or abs(measured.standard_errors) <= _STANDARD_ERRORS:
         return Verdict("right")
-    if not randomized or math.isnan(measured.spread):
+    if math.isnan(measured.spread):
         return Verdict("not random", f"the error of the one set is {measured.error:.2g}")
     if measured.hits < _ENOUGH_HITS:
         return Verdict("few hits", f"{errors}, and {measured.hits:.0f} samples that hit")
