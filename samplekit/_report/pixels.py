@@ -11,7 +11,6 @@ from __future__ import annotations
 import base64
 import math
 import zlib
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -36,23 +35,7 @@ BUDGET = 18_000_000
 _INVALID = 0xFFFFFF
 
 
-@dataclass(frozen=True)
-class Packed:
-    """The images of a page.
-
-    Attributes
-    ----------
-    scenes
-        What the scripts of the page read about each scene with images.
-    blobs
-        The packed pixels by the names that occur in ``scenes``.
-    """
-
-    scenes: list[dict[str, Any]]
-    blobs: dict[str, str]
-
-
-def packed(results: Results, folder: Path, budget: int = BUDGET) -> Packed:
+def packed(results: Results, folder: Path, budget: int = BUDGET) -> tuple[list[dict[str, Any]], dict[str, str]]:
     """Pack the images of the first trials, for every scene that has images.
 
     Parameters
@@ -61,6 +44,13 @@ def packed(results: Results, folder: Path, budget: int = BUDGET) -> Packed:
         The study, and where the paths of its images begin.
     budget
         Most characters that all images take together.
+
+    Returns
+    -------
+    scenes
+        What the scripts of the page read about each scene with images.
+    blobs
+        The packed pixels by the names that occur in ``scenes``.
 
     Raises
     ------
@@ -96,7 +86,7 @@ def packed(results: Results, folder: Path, budget: int = BUDGET) -> Packed:
             )
         needed = sum(len(text) for text in blobs.values())
         if needed <= budget or max(size) == 1:
-            return Packed(scenes, blobs)
+            return scenes, blobs
         shrink = 0.97 * math.sqrt(budget / needed)
         size = (max(1, int(shrink * size[0])), max(1, int(shrink * size[1])))
 
