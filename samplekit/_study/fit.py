@@ -13,7 +13,6 @@ integration", ACM TOG 34(4).
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -51,16 +50,9 @@ def theoretical_exponent(scene: str, sampler: str) -> tuple[str | None, float | 
     return case, _EXPONENTS.get(name, {}).get(case) if case else None
 
 
-@dataclass(frozen=True)
-class Line:
-    """A fitted line; the fields are those of :class:`samplekit._study.results.Fit`."""
-
-    slope: Interval
-    constant: float
-    scatter: float
-
-
-def fit_line(counts: Sequence[int], mses: Sequence[float], influences: Sequence[Array | None]) -> Line | None:
+def fit_line(
+    counts: Sequence[int], mses: Sequence[float], influences: Sequence[Array | None]
+) -> tuple[Interval, float, float] | None:
     """Fit a line to the logarithms of rows.
 
     Parameters
@@ -73,7 +65,7 @@ def fit_line(counts: Sequence[int], mses: Sequence[float], influences: Sequence[
 
     Returns
     -------
-    None if there are fewer than two rows.
+    Slope, constant and scatter, as in :class:`samplekit._study.results.Fit`; None if there are fewer than two rows.
     """
     rows = len(counts)
     if rows < 2:
@@ -90,12 +82,12 @@ def fit_line(counts: Sequence[int], mses: Sequence[float], influences: Sequence[
     by_scatter = scatter * float(coefficients @ coefficients)
     total = by_trials + by_scatter
     if total <= 0.0:
-        return Line(Interval(slope), constant, math.sqrt(scatter))
+        return Interval(slope), constant, math.sqrt(scatter)
     batches = min((len(part) for part in influences if part is not None), default=2)
     # Welch and Satterthwaite: degrees of freedom of a sum of two estimated variances.
     dof = total**2 / (by_trials**2 / max(batches - 1, 1) + by_scatter**2 / max(rows - 2, 1))
     reach = student(dof) * math.sqrt(total)
-    return Line(Interval(slope, slope - reach, slope + reach), constant, math.sqrt(scatter))
+    return Interval(slope, slope - reach, slope + reach), constant, math.sqrt(scatter)
 
 
 def _covariance(influences: Sequence[Array | None]) -> Array:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import threading
 import time
 from dataclasses import asdict, replace
 from typing import TYPE_CHECKING
@@ -16,7 +15,7 @@ from samplekit._study.analysis import Analysis
 from samplekit._study.cluster import Cluster
 from samplekit._study.combinations import list_combinations
 from samplekit._study.folder import check_folder
-from samplekit._study.jobs import gaps, split
+from samplekit._study.jobs import split
 from samplekit._study.machine import describe_machine, kind_of
 from samplekit._study.processes import in_processes
 from samplekit._study.results import Results
@@ -74,29 +73,21 @@ class Study:
         self._request, self._options, self._resources = request, options, resources
         self._combinations, self._left_out = list_combinations(request, resources)
         self._machine, self._versions = describe_machine(), versions()
-        self._machine_kind = kind_of(self._machine)
         if folder is not None:
             check_folder(folder, resume=resume)
-        self._store = Store(folder)
-        self._cluster: Cluster | None = None
-        try:
-            self._store.begin(asdict(request), self._versions)
-            self._cluster = Cluster(options.dask) if options.dask is not None else None
-        except BaseException:
-            self.close()
-            raise
+        with contextlib.ExitStack() as stack:
+            store = Store(folder, asdict(request), self._versions, kind_of(self._machine))
+            self._store = stack.enter_context(contextlib.closing(store))
+            self._cluster: Cluster | None = None
+            if options.dask is not None:
+                self._cluster = stack.enter_context(contextlib.closing(Cluster(options.dask)))
+            self._open = stack.pop_all()
 
     def __enter__(self) -> Study:
         return self
 
     def __exit__(self, *exception: object) -> None:
-        self.close()
-
-    def close(self) -> None:
-        """Close the store and the connection to the cluster."""
-        self._store.close()
-        if self._cluster is not None:
-            self._cluster.close()
+        self._open.close()
 
     def run(self, progress: Progress = lambda _, __, ___: None) -> None:
         """Do what is left to do. After an interrupt the store has everything that was finished.
@@ -111,36 +102,28 @@ class Study:
         SamplekitError
             A plugin failed, or the store cannot be written.
         """
-        self._set_up(progress)
+        for each in self._combinations:
+            cpu, wall = set_up(each, self._resources, lambda done, total: progress("preparing point sets", done, total))
+            if self._options.times:
+                self._store.add_setup(each, cpu, wall)
         timings = [TimingRun(combination, self._request, self._resources) for combination in self._combinations]
         seconds = {}
         for number, timing in enumerate(timings):
             seconds[timing.combination] = timing.warm_up(LAP_SECONDS if self._options.times else ESTIMATE_SECONDS)
             progress("warming up", number + 1, len(timings))
+
+        def time_laps(seconds: float) -> None:
+            run_laps(timings, seconds, self._store, lambda done, total: progress("measuring run times", done, total))
+
         if self._options.times:
-            self._run_laps(timings, 0.0, progress)
+            time_laps(0.0)
         began = time.perf_counter()
         self._compute_errors(seconds, progress)
         if self._options.times:
             budget = self._options.budget
             if budget is None:
                 budget = max(_BUDGET_SHARE * (time.perf_counter() - began), _SMALLEST_BUDGET)
-            self._run_laps(timings, budget, progress)
-
-    def _set_up(self, progress: Progress) -> None:
-        for each in self._combinations:
-            cpu, wall = set_up(each, self._resources, lambda done, total: progress("preparing point sets", done, total))
-            if self._options.times:
-                self._store.add_setup(self._machine_kind, each, cpu, wall)
-
-    def _run_laps(self, timings: list[TimingRun], seconds: float, progress: Progress) -> None:
-        run_laps(
-            timings,
-            seconds,
-            lambda combination: self._store.laps(self._machine_kind, combination)[:, [0, 2]].sum(axis=1),
-            lambda laps: self._store.add_laps(self._machine_kind, laps),
-            lambda done, total: progress("measuring run times", done, total),
-        )
+            time_laps(budget)
 
     def _compute_errors(self, seconds: dict[Combination, float], progress: Progress) -> None:
         """Carry out the jobs that are left; ``seconds`` are those of a trial."""
@@ -149,22 +132,17 @@ class Study:
             workers = self._cluster.threads
         elif workers == 1:
             workers = check_threads(self._options.threads)
-
-        def missing(combination: Combination) -> list[tuple[int, int]]:
-            return gaps(self._store.ranges(combination), combination.trials)
-
-        jobs = split(self._request, self._combinations, missing, seconds, workers)
+        jobs = split(self._request, self._combinations, self._store.ranges, seconds, workers)
         if self._cluster is None and jobs:
             needed = workers * max(job.memory for job in jobs)
             check_memory(needed, f"images on {workers} threads or processes", ": ask for fewer with --threads")
         total = sum(job.samples for job in jobs)
-        done, lock = 0, threading.Lock()
+        done = 0
 
         def tick(samples: int) -> None:
             nonlocal done
-            with lock:
-                done += samples
-                progress("computing errors", min(done, total), total)
+            done += samples
+            progress("computing errors", min(done, total), total)
 
         if self._cluster is not None:
             found = self._cluster.run(jobs, tick)
@@ -185,7 +163,6 @@ class Study:
             self._combinations,
             self._store,
             self._resources,
-            self._machine_kind,
             options.cost,
             options.fitted,
         )
