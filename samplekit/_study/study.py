@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 from samplekit._errors import UsageError
 from samplekit._memory import check_memory
 from samplekit._provenance import versions
-from samplekit._study import ranking
 from samplekit._study.analysis import Analysis
 from samplekit._study.cluster import Cluster
 from samplekit._study.combinations import list_combinations
@@ -18,6 +17,7 @@ from samplekit._study.folder import check_folder
 from samplekit._study.jobs import split
 from samplekit._study.machine import describe_machine, kind_of
 from samplekit._study.processes import in_processes
+from samplekit._study.ranking import rank
 from samplekit._study.results import Results
 from samplekit._study.sentences import statements
 from samplekit._study.store import Store
@@ -167,8 +167,6 @@ class Study:
             options.fitted,
         )
         rows = analysis.rows()
-        target = ranking.targets(rows, options.target)
-        to_target = ranking.times_to_target(rows, target)
         results = Results(
             command=request.command(*options.command_options()),
             versions=self._versions,
@@ -181,16 +179,12 @@ class Study:
             seed=request.seed,
             workers=self._workers(),
             cost=options.cost,
-            target=target,
             complete=analysis.complete,
             rows=rows,
             fits=analysis.fits(rows),
-            to_target=to_target,
-            front=ranking.front(rows),
-            flips=ranking.flips(rows, to_target, options.cost),
             left_out=[*self._left_out, *analysis.left_out],
             notes=self._notes(),
-            crossings=ranking.crossings(rows),
+            **rank(rows, options.target, options.cost)._asdict(),
         )
         return replace(results, sentences=[statement.sentence for statement in statements(results)])
 
