@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -201,11 +201,7 @@ def measure(
     )
     exact = float(reference.image[0, 0])
     magnitudes = magnitude_totals[:, 0] / count
-    errors: dict[str, float] = {}
-    if np.isfinite(estimates).all():
-        with np.errstate(all="ignore"):
-            errors = _measure_errors(estimates, exact, totals, magnitudes, count, random=sampler.spec.randomized)
-    return Measurement(
+    measured = Measurement(
         exact=exact,
         reference_error=reference.error,
         magnitude=_mean(magnitudes),
@@ -213,30 +209,26 @@ def measure(
         hits=moments.hits,
         invalid=moments.invalid,
         samples=count * realizations,
-        **errors,
     )
-
-
-def _measure_errors(
-    estimates: Array, exact: float, totals: Array, magnitudes: Array, count: int, *, random: bool
-) -> dict[str, float]:
-    """Return the attributes of a measurement that tell its errors, for finite estimates float64[R]."""
-    rounding = distances(estimates, totals, count)
-    errors = estimates - exact
-    unrounded = -distances(np.full(estimates.size, exact), totals, count)
-    spread, sampling_error = math.nan, math.nan
-    if random and estimates.size > 1:
-        spread, sampling_error = _spread(errors), _spread(unrounded)
-    return {
-        "estimate": _mean(estimates),
-        "error": _mean(errors),
-        "spread": spread,
-        "standard_error": spread / math.sqrt(estimates.size),
-        "rms_error": _root_mean_square(errors),
-        "sampling_error": sampling_error,
-        "arithmetic_error": float(np.abs(rounding).max()),
-        "digits_lost": _digits_lost(rounding, magnitudes),
-    }
+    if not np.isfinite(estimates).all():
+        return measured
+    with np.errstate(all="ignore"):
+        rounding = distances(estimates, totals, count)
+        unrounded = -distances(np.full(realizations, exact), totals, count)
+        errors = estimates - exact
+        random = sampler.spec.randomized and realizations > 1
+        spread, sampling_error = (_spread(each) if random else math.nan for each in (errors, unrounded))
+    return replace(
+        measured,
+        estimate=_mean(estimates),
+        error=_mean(errors),
+        spread=spread,
+        standard_error=spread / math.sqrt(realizations),
+        rms_error=_root_mean_square(errors),
+        sampling_error=sampling_error,
+        arithmetic_error=float(np.abs(rounding).max()),
+        digits_lost=_digits_lost(rounding, magnitudes),
+    )
 
 
 def _mean(values: Array) -> float:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from samplekit._bases.reference import Reference
     from samplekit._study.combinations import Combination
-    from samplekit._study.request import Request
+    from samplekit._study.request import ExecutionOptions, Request
     from samplekit._study.resources import Resources
     from samplekit._study.store import Store
 
@@ -36,14 +36,10 @@ class Analysis:
 
     Parameters
     ----------
-    request, combinations
+    request, options, combinations
         What was asked for, and the rows that there can be.
     store, resources
         The sums and times that were found; the scenes and references.
-    cost
-        Extra cost per sample, in nanoseconds.
-    fitted
-        First and last count that fits use; None: all counts.
 
     Attributes
     ----------
@@ -58,17 +54,16 @@ class Analysis:
     def __init__(
         self,
         request: Request,
+        options: ExecutionOptions,
         combinations: Sequence[Combination],
         store: Store,
         resources: Resources,
-        cost: float,
-        fitted: tuple[int, int] | None,
     ) -> None:
         self._request = request
         self._resources = resources
         self._store = store
-        self._cost = cost
-        self._fitted = fitted or (1, max(combination.count for combination in combinations))
+        self._cost = options.cost
+        self._fitted = options.fitted or (1, max(combination.count for combination in combinations))
         self._sums = {combination: store.sums(combination) for combination in combinations}
         self._done = {each: sum(last - first for first, last in store.ranges(each)) for each in combinations}
         self.combinations = [each for each in combinations if len(self._sums[each])]

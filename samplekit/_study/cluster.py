@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 from samplekit._errors import SamplekitError, UsageError
 from samplekit._provenance import versions
-from samplekit._study.resources import Resources
 from samplekit._study.trials import carry_out
 
 if TYPE_CHECKING:
@@ -112,14 +111,10 @@ class Cluster:
             self._client.cancel(list(running))
 
 
-_resources = Resources()
-"""The resources of this worker process, for all of its threads."""
-
-
 def _carry_out_there(job: Job, expected: dict[str, str]) -> NDArray[np.float64]:
     # Checked with each job, since workers may join at any time.
     found = versions()
     for name, version in expected.items():
         if found.get(name) != version:
             raise SamplekitError(f"a Dask worker has {name} {found.get(name)}, this is {version}: results would differ")
-    return carry_out(job, _resources)
+    return carry_out(job)

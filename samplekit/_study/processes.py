@@ -11,7 +11,6 @@ from concurrent.futures.process import BrokenProcessPool
 from typing import TYPE_CHECKING
 
 from samplekit._errors import SamplekitError
-from samplekit._study.resources import Resources
 from samplekit._study.trials import carry_out
 from samplekit._threads import as_completed
 
@@ -44,7 +43,7 @@ def in_processes(jobs: Sequence[Job], processes: int, tick: Callable[[int], None
     # A fork of a process that has written images hangs.
     pool = ProcessPoolExecutor(processes, multiprocessing.get_context("spawn"), _begin_worker)
     try:
-        for job, sums in as_completed(jobs, processes, lambda job: pool.submit(_carry_out_here, job)):
+        for job, sums in as_completed(jobs, processes, lambda job: pool.submit(carry_out, job)):
             tick(job.samples)
             yield job, sums
     except BrokenProcessPool:
@@ -64,10 +63,6 @@ def _children(pool: Executor) -> list[multiprocessing.process.BaseProcess]:
     return list((getattr(pool, "_processes", None) or {}).values())
 
 
-_resources = Resources()
-"""The resources of this worker process."""
-
-
 def _begin_worker() -> None:
     # The terminal interrupts all processes at once; the process that started them decides what happens.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
@@ -80,7 +75,3 @@ def _end_with_parent() -> None:
     if parent is not None:
         parent.join()
         os._exit(1)
-
-
-def _carry_out_here(job: Job) -> NDArray[np.float64]:
-    return carry_out(job, _resources)

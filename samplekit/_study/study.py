@@ -64,9 +64,9 @@ class Study:
         request: Request,
         options: ExecutionOptions,
         resources: Resources,
-        folder: Path | None = None,
+        folder: Path | None,
         *,
-        resume: bool = False,
+        resume: bool,
     ) -> None:
         if resume and folder is None:
             raise UsageError("--resume needs --output, the folder of the study")
@@ -89,7 +89,7 @@ class Study:
     def __exit__(self, *exception: object) -> None:
         self._open.close()
 
-    def run(self, progress: Progress = lambda _, __, ___: None) -> None:
+    def run(self, progress: Progress) -> None:
         """Do what is left to do. After an interrupt the store has everything that was finished.
 
         Parameters
@@ -158,14 +158,7 @@ class Study:
     def results(self) -> Results:
         """Return the results of everything that is done, also after an interrupt."""
         request, options = self._request, self._options
-        analysis = Analysis(
-            request,
-            self._combinations,
-            self._store,
-            self._resources,
-            options.cost,
-            options.fitted,
-        )
+        analysis = Analysis(request, options, self._combinations, self._store, self._resources)
         rows = analysis.rows()
         results = Results(
             command=request.command(*options.command_options()),

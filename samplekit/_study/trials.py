@@ -14,6 +14,7 @@ from samplekit._bases.realizations import Realizations, seed_word
 from samplekit._integrate.loop import integrate, unit_square
 from samplekit._study.blurred import blurred_mean_square
 from samplekit._study.request import UNIT_SQUARE
+from samplekit._study.resources import OF_PROCESS, Resources
 from samplekit.kernels import kernel
 
 if TYPE_CHECKING:
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from samplekit._study.jobs import Job
-    from samplekit._study.resources import Resources
 
     Array = NDArray[np.float64]
     Tick = Callable[[int], None]
@@ -48,13 +48,13 @@ def seed_of(seed: int, trial: int) -> int:
     return int(seed_word((seed + trial * _STEP) % 2**64)) if trial else seed
 
 
-def carry_out(job: Job, resources: Resources, tick: Tick = lambda _: None) -> Array:
+def carry_out(job: Job, resources: Resources = OF_PROCESS, tick: Tick = lambda _: None) -> Array:
     """Carry out a job.
 
     Parameters
     ----------
     job, resources
-        The job, and the objects that it names.
+        The job, and the objects that it names; a worker process uses its own.
     tick
         Called now and then with the number of samples done since the last call.
 

@@ -11,7 +11,7 @@ from samplekit._study.analysis import Analysis
 from samplekit._study.combinations import list_combinations
 from samplekit._study.folder import check_folder
 from samplekit._study.jobs import Job
-from samplekit._study.request import checked_request
+from samplekit._study.request import ExecutionOptions, checked_request
 from samplekit._study.resources import Resources
 from samplekit._study.store import NAME, Store
 from samplekit._study.trials import COLUMNS, carry_out
@@ -138,11 +138,11 @@ def test_times_of_another_kind_of_machine_do_not_count(opened):
     slow.close()
     fast = opened(machine="fast")
     fast.add_laps([(combination, (1.0, 2.0, 3.0, 4.0))] * 5)
-    (row,) = Analysis(REQUEST, [combination], fast, resources, 10.0, None).rows()
+    (row,) = Analysis(REQUEST, ExecutionOptions(cost=10.0), [combination], fast, resources).rows()
     assert (row.times.points.cpu.median, row.times.total.wall.upper, row.times.laps) == (1.0, 6.0, 5)
     assert row.time == pytest.approx(4.0 + 4 * 10e-9)
     fast.close()
-    (row,) = Analysis(REQUEST, [combination], opened(machine="third"), resources, 0.0, None).rows()
+    (row,) = Analysis(REQUEST, ExecutionOptions(), [combination], opened(machine="third"), resources).rows()
     assert (row.times, row.time) == (None, None)
 
 
