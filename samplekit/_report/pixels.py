@@ -123,7 +123,7 @@ def _parts(row: Row, folder: Path, size: tuple[int, int]) -> tuple[NDArray[np.fl
     parts = read_parts(path).parts
     for name in ("reference", "error"):
         if name not in parts or parts[name].shape != (size[1], size[0]):
-            raise SamplekitError(f"{path} has no part {name} of {size[0]} x {size[1]} pixels: run the study anew")
+            raise SamplekitError(f"{path} has no part {name} of {size[0]} x {size[1]} pixels: run the study again")
     return parts["reference"], parts["error"]
 
 

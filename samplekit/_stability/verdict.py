@@ -22,11 +22,11 @@ MEANINGS: dict[Kind, str] = {
     "right": f"within {_STANDARD_ERRORS:g} standard errors and rounding",
     "no hits": "right, but no sample hit: all are the same, the variance is 0 and nothing has converged",
     "few hits": f"beyond {_STANDARD_ERRORS:g} standard errors, from fewer than {_ENOUGH_HITS:g} samples that hit",
-    "infinite variance": "a standard error means nothing",
+    "infinite variance": "the standard error says nothing about the error",
     "precision lost": "rounding is larger than the error of sampling",
     "not random": "one set: no standard error",
     "invalid": "values that are not finite",
-    "refused": "the sampler makes no such sets",
+    "refused": "the sampler cannot make such sets",
     "wrong": f"beyond {_STANDARD_ERRORS:g} standard errors twice, with independent seeds",
 }
 
@@ -62,7 +62,7 @@ def judge(measured: Measurement, *, finite_variance: bool) -> Verdict:
             f" the variance is 0, and the error {measured.error:.3g}",
         )
     if not finite_variance:
-        return Verdict("infinite variance", f"{errors}, which mean nothing")
+        return Verdict("infinite variance", f"{errors}, which say nothing about the error")
     rounding, sampling = measured.arithmetic_error, measured.sampling_error
     if rounding > _VISIBLE * measured.deviation > 0.0 and not rounding <= sampling:
         return Verdict("precision lost", f"rounding {rounding:.2g}, error of sampling {sampling:.2g}")

@@ -10,20 +10,16 @@ import numpy as np
 from samplekit._study.errors import errors_of, influence, ratio_of
 from samplekit._study.fit import fit_line, theoretical_exponent
 from samplekit._study.results import Fit, Interval, LeftOut, Row, Seconds, Spread, Times
-from samplekit._study.trials import TRIALS
+from samplekit._study.trials import TRIALS, Array
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
-
-    from numpy.typing import NDArray
 
     from samplekit._bases.reference import Reference
     from samplekit._study.combinations import Combination
     from samplekit._study.request import ExecutionOptions, Request
     from samplekit._study.resources import Resources
     from samplekit._study.store import Store
-
-    Array = NDArray[np.float64]
 
 _TRUSTED = 10.0
 """An rmse tells something about the sampler only if it is this many times the reference's own error."""

@@ -6,13 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit._metrics import BLUR_RADIUS, BLUR_WEIGHTS, blur
+from samplekit._metrics import BLUR_RADIUS, BLUR_WEIGHTS, Array, blur
 from samplekit.kernels import helper, kernel
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
 
 
 @helper

@@ -126,7 +126,7 @@ def _combination(
         notes.append("not random: every trial is the same, so one was made, and errors have no interval")
     elif request.one_pixel and spec.period is not None and spec.period < trials:
         trials = spec.period
-        notes.append(f"has {spec.period} sets and no more: so many trials")
+        notes.append(f"has only {spec.period} sets, so only {spec.period} trials were made")
     if request.trials == 1 and spec.randomized:
         notes.append("a single trial: errors have no interval")
     if not spec.unbiased:

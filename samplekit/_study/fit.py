@@ -23,9 +23,7 @@ from samplekit._study.results import Interval
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+    from samplekit._study.trials import Array
 
 
 _CASES = {"disk": "worst", "gaussian": "best"}

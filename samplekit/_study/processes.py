@@ -11,18 +11,15 @@ from concurrent.futures.process import BrokenProcessPool
 from typing import TYPE_CHECKING
 
 from samplekit._errors import SamplekitError
-from samplekit._study.trials import carry_out
+from samplekit._study.trials import Array, carry_out
 from samplekit._threads import as_completed
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Sequence
 
-    import numpy as np
-    from numpy.typing import NDArray
-
     from samplekit._study.jobs import Job
 
-    JobResults = Generator[tuple[Job, NDArray[np.float64]], None, None]
+    JobResults = Generator[tuple[Job, Array], None, None]
 
 
 def in_processes(jobs: Sequence[Job], processes: int, tick: Callable[[int], None]) -> JobResults:
@@ -64,7 +61,7 @@ def _children(pool: Executor) -> list[multiprocessing.process.BaseProcess]:
 
 
 def _begin_worker() -> None:
-    # The terminal interrupts all processes at once; the process that started them decides what happens.
+    # The terminal interrupts all processes at once. Workers ignore that: the process that started them ends them.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
 

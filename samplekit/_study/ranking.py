@@ -77,7 +77,7 @@ def _to_target(rows: Sequence[Row], target: float) -> ToTarget:
             return ToTarget(*pair, target, count, seconds, "")
         if mse is not None:
             previous = row
-    return ToTarget(*pair, target, None, None, f"does not get there with {rows[-1].count} samples")
+    return ToTarget(*pair, target, None, None, f"does not reach the target with {rows[-1].count} samples")
 
 
 def _share(above: float, below: float, target: float) -> float:

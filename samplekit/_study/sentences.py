@@ -106,7 +106,7 @@ def _sampler_text(need: ToTarget, needs: Sequence[ToTarget], choices: Sequence[C
             factor = need.seconds / fastest
             text += ", the least" if factor == 1.0 else f", {factor:.3g} times the least"
     if fit is not None and fit.slope.high is not None and fit.slope.high >= 0.0:
-        text += "; how fast its mse falls, these counts do not tell"
+        text += "; these counts do not tell how fast its mse falls"
     elif fit is not None:
         text += f"; its mse falls as N^{fit.slope.estimate:.2f}"
         if fit.theory is not None:

@@ -16,20 +16,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from samplekit._errors import SamplekitError, UsageError
-from samplekit._study.trials import COLUMNS
+from samplekit._study.trials import COLUMNS, Array
 from samplekit.files import shown
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
     from pathlib import Path
 
-    from numpy.typing import NDArray
-
     from samplekit._study.combinations import Combination
     from samplekit._study.jobs import Job
     from samplekit._study.timing import Lap
-
-    Array = NDArray[np.float64]
 
 FORMAT = 2
 NAME = "study.sqlite"

@@ -11,7 +11,7 @@ from samplekit._errors import UsageError
 from samplekit._memory import check_memory
 from samplekit._provenance import versions
 from samplekit._study.analysis import Analysis
-from samplekit._study.cluster import Cluster
+from samplekit._study.cluster import connect, count_threads, on_cluster
 from samplekit._study.combinations import list_combinations
 from samplekit._study.folder import check_folder
 from samplekit._study.jobs import split
@@ -78,9 +78,9 @@ class Study:
         with contextlib.ExitStack() as stack:
             store = Store(folder, asdict(request), self._versions, kind_of(self._machine))
             self._store = stack.enter_context(contextlib.closing(store))
-            self._cluster: Cluster | None = None
+            self._cluster = None
             if options.dask is not None:
-                self._cluster = stack.enter_context(contextlib.closing(Cluster(options.dask)))
+                self._cluster = stack.enter_context(contextlib.closing(connect(options.dask)))
             self._open = stack.pop_all()
 
     def __enter__(self) -> Study:
@@ -129,7 +129,7 @@ class Study:
         """Carry out the jobs that are left; ``seconds`` are those of a trial."""
         workers = self._options.processes
         if self._cluster is not None:
-            workers = self._cluster.threads
+            workers = count_threads(self._cluster)
         elif workers == 1:
             workers = check_threads(self._options.threads)
         jobs = split(self._request, self._combinations, self._store.ranges, seconds, workers)
@@ -145,7 +145,7 @@ class Study:
             progress("computing errors", min(done, total), total)
 
         if self._cluster is not None:
-            found = self._cluster.run(jobs, tick)
+            found = on_cluster(self._cluster, jobs, tick)
         elif self._options.processes > 1:
             found = in_processes(jobs, workers, tick)
         else:

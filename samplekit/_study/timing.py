@@ -18,14 +18,12 @@ from samplekit._integrate.loop import Clock, integrate, unit_square
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import NDArray
-
     from samplekit._study.combinations import Combination
     from samplekit._study.request import Request
     from samplekit._study.resources import Resources
     from samplekit._study.store import Store
+    from samplekit._study.trials import Array
 
-    Array = NDArray[np.float64]
     Lap = tuple[float, float, float, float]
 
 LAP_SECONDS = 0.002

@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit._bases.realizations import Realizations, seed_word
 from samplekit._integrate.loop import integrate, unit_square
@@ -20,12 +21,11 @@ from samplekit.kernels import kernel
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import NDArray
-
     from samplekit._study.jobs import Job
 
-    Array = NDArray[np.float64]
     Tick = Callable[[int], None]
+
+Array = NDArray[np.float64]
 
 TRIALS, ERROR, SQUARE, PAIRS, PRODUCT, BLURRED, INVALID = range(7)
 """Columns of the sums of a batch.
