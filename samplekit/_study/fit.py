@@ -120,14 +120,15 @@ def _line_coefficients(x: Array, weights: Array) -> tuple[Array, Array]:
 def _find_scatter(x: Array, y: Array, known: Array) -> float:
     """Return the variance about the line, beyond ``known``, that gives the weighted residuals their expected size."""
 
+    def squared_residuals(weights: Array) -> Array:
+        slope, intercept = _line_coefficients(x, weights)
+        return (y - float(intercept @ y) - float(slope @ y) * x) ** 2
+
     def excess(scatter: float) -> float:
         weights = _weigh(known, scatter)
-        slope, intercept = _line_coefficients(x, weights)
-        residuals = y - float(intercept @ y) - float(slope @ y) * x
-        return float(weights @ residuals**2) - (x.size - 2)
+        return float(weights @ squared_residuals(weights)) - (x.size - 2)
 
-    slope, intercept = _line_coefficients(x, np.ones_like(x))
-    largest = float(np.sum((y - float(intercept @ y) - float(slope @ y) * x) ** 2))
+    largest = float(np.sum(squared_residuals(np.ones_like(x))))
     if largest <= 1e-24 or (known.max() > 0.0 and excess(0.0) <= 0.0):
         return 0.0
     low, high = 0.0, 4.0 * largest

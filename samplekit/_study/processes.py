@@ -6,7 +6,7 @@ import multiprocessing
 import os
 import signal
 import threading
-from concurrent.futures import Executor, ProcessPoolExecutor
+from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from typing import TYPE_CHECKING
 
@@ -48,16 +48,12 @@ def in_processes(jobs: Sequence[Job], processes: int, tick: Callable[[int], None
             "a worker process was ended from outside (out of memory?): with --output, --resume continues from there"
         ) from None
     finally:
-        children = _children(pool)
+        # The pool has no public way to end a worker in the middle of a job.
+        children = list((getattr(pool, "_processes", None) or {}).values())
         pool.shutdown(wait=False, cancel_futures=True)
         for child in children:
             child.terminate()
             child.join()
-
-
-def _children(pool: Executor) -> list[multiprocessing.process.BaseProcess]:
-    # The pool has no public way to end a worker in the middle of a job.
-    return list((getattr(pool, "_processes", None) or {}).values())
 
 
 def _begin_worker() -> None:
