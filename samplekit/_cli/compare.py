@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from samplekit.commands import INTERRUPTED, JsonOption, SeedOption, complete_sampler, complete_scene
+from samplekit.commands import DONE, FAILED, INTERRUPTED, JsonOption, SeedOption, complete_sampler, complete_scene
 
 if TYPE_CHECKING:
     from samplekit import Results
@@ -118,7 +118,7 @@ def compare(
             _print_results(interrupt.results, output, json)
             return INTERRUPTED
     _print_results(results, output, json)
-    return _report_invalid(results, json)
+    return _report_invalid(results)
 
 
 def _print_results(results: Results, output: str, as_json: bool) -> None:
@@ -138,16 +138,12 @@ def _print_results(results: Results, output: str, as_json: bool) -> None:
         typer.echo(f"wrote {output}")
 
 
-def _report_invalid(results: Results, as_json: bool) -> int:
-    """Return exit status 1 with a line that says why if pixels were not finite, and 0 otherwise."""
+def _report_invalid(results: Results) -> int:
+    """Return exit status 1, and print why, if pixels were not finite; return 0 otherwise."""
     rows = [row for row in results.rows if row.invalid_pixels]
     if not rows:
-        return 0
+        return DONE
     pixels = sum(row.invalid_pixels for row in rows)
     message = f"{pixels} pixels of {rows[0].scene} were not finite in all trials together: left out of the errors"
-    if not as_json:
-        from samplekit._errors import SamplekitError
-
-        raise SamplekitError(message)
     typer.echo(f"samplekit: {message}", err=True)
-    return 1
+    return FAILED

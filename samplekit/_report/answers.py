@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from samplekit._report.wording import counted, number, seconds
-from samplekit._study.sentences import statements
+from samplekit._study.sentences import runs, statements
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -71,13 +70,12 @@ def answers(results: Results) -> list[Answer]:
 
 def budgets(front: Sequence[Choice]) -> list[Budget]:
     """Return a range for each run of choices of the same sampler, on a logarithmic strip of times."""
-    runs = [list(run) for _, run in itertools.groupby(front, key=lambda choice: choice.sampler)]
-    if not runs or front[0].seconds <= 0.0:
+    if not front or front[0].seconds <= 0.0:
         return []
     begin = math.log(front[0].seconds)
     end = max(math.log(front[-1].seconds * _OPEN_END), begin + 1.25 * (math.log(front[-1].seconds) - begin))
     found = []
-    for run in runs:
+    for run in runs(front):
         until = run[-1].until
         left = (math.log(run[0].seconds) - begin) / (end - begin)
         right = 1.0 if until is None else (math.log(until) - begin) / (end - begin)

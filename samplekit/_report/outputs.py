@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from samplekit._integrate.rendering import Rendering, render
-from samplekit._report.page import write_report
+from samplekit._report.page import page
 from samplekit._report.table import csv_text
-from samplekit._study.folder import CSV, IMAGES, JSON, PLOTS, file_name
-from samplekit._study.results import SCHEMA, Pictures, to_json
+from samplekit._study.folder import CSV, IMAGES, JSON, PLOTS, REPORT, file_name
+from samplekit._study.results import SCHEMA, Pictures
 from samplekit.files import text_writer, write_group
 from samplekit.files._images.falsecolor import rounded_up
 from samplekit.plots import figure_writer
@@ -38,7 +39,7 @@ def write_outputs(
     threads: int | None,
     progress: Callable[[int, int], None],
 ) -> Results:
-    """Write all files of a study.
+    """Write all files of a study; plots, tables and the page are replaced all together or not at all.
 
     Parameters
     ----------
@@ -74,9 +75,9 @@ def write_outputs(
                     items.append((path, figure_writer(figure, ending, metadata)))
     results = replace(results, rows=rows, plots=[f"{PLOTS}/{path.name}" for path, _ in items])
     items.append((folder / CSV, text_writer([csv_text(results)])))
-    items.append((folder / JSON, text_writer([to_json(results)])))
+    items.append((folder / JSON, text_writer([json.dumps(results.as_json(), allow_nan=False, indent=1)])))
+    items.append((folder / REPORT, text_writer([page(results, folder)])))
     write_group(items)
-    write_report(results, folder)
     return results
 
 

@@ -14,9 +14,8 @@ from markupsafe import Markup
 from samplekit._report import wording
 from samplekit._report.answers import answers
 from samplekit._report.pixels import STEPS, packed
-from samplekit._study.folder import REPORT
+from samplekit._study.folder import CSV, JSON
 from samplekit._study.results import LEVEL
-from samplekit.files import text_writer, write_group
 from samplekit.files._images import diverging
 from samplekit.files._images.png import RESERVED
 
@@ -28,53 +27,6 @@ if TYPE_CHECKING:
 
 _ASSETS = files("samplekit._report") / "assets"
 _LIBRARY = "vendor/d3.min.js"
-STYLES = ("base", "controls", "answers", "tables", "charts", "images", "made", "phone", "paper")
-"""Style sheets of the page, in the order in which they apply."""
-
-SCRIPTS = (
-    "state",
-    "format",
-    "fitting",
-    "series",
-    "chart_axes",
-    "chart_marks",
-    "chart",
-    "tooltip",
-    "charts",
-    "ranking",
-    "flips",
-    "controls",
-    "pixels",
-    "viewer",
-    "compare",
-    "table",
-    "start",
-)
-"""The page's own scripts, in the order in which they are joined into one."""
-
-
-def write_report(results: Results, folder: Path) -> Path:
-    """Write the page of a study beside its other files.
-
-    Parameters
-    ----------
-    results
-        The study.
-    folder
-        Where the page goes, and where the paths of images in ``results`` begin.
-
-    Returns
-    -------
-    The path of the page.
-
-    Raises
-    ------
-    UsageError, SamplekitError
-        An image is missing, damaged or of another size, or the page cannot be written. An old page is then still there.
-    """
-    path = folder / REPORT
-    write_group([(path, text_writer([page(results, folder)]))])
-    return path
 
 
 def page(results: Results, folder: Path) -> str:
@@ -95,13 +47,12 @@ def page(results: Results, folder: Path) -> str:
     UsageError, SamplekitError
         An image is missing or damaged.
     """
-    style = "\n".join(asset(f"style/{name}.css") for name in STYLES)
-    scripts = [asset(_LIBRARY), '"use strict";\n' + "\n".join(asset(f"scripts/{name}.js") for name in SCRIPTS)]
-    pictures = packed(results, folder)
-    study = asdict(results) | {"seed": str(results.seed)}
+    style = _joined("style")
+    scripts = [asset(_LIBRARY), '"use strict";\n' + _joined("scripts")]
+    scenes, blobs = packed(results, folder)
     data = {
-        "study": study,
-        "pictures": pictures.scenes,
+        "study": asdict(results) | {"seed": str(results.seed)},
+        "pictures": scenes,
         "error_colours": diverging.table().tobytes().hex(),
         "invalid_colour": RESERVED,
     }
@@ -121,11 +72,11 @@ def page(results: Results, folder: Path) -> str:
         timed=any(row.times for row in results.rows),
         blurred=any(row.blurred_mse for row in results.rows),
         references=references(results),
-        files=[name for name in ("results.json", "results.csv", *results.plots) if (folder / name).is_file()],
-        pictures=pictures.scenes,
+        files=[JSON, CSV, *results.plots],
+        pictures=scenes,
         steps=STEPS,
         data=data,
-        blobs=list(pictures.blobs.items()),
+        blobs=list(blobs.items()),
         style=Markup(style),
         scripts=[Markup(script) for script in scripts],
         policy=policy([style], scripts),
@@ -137,6 +88,12 @@ def page(results: Results, folder: Path) -> str:
 def asset(name: str) -> str:
     """Return the text of a file in ``assets``."""
     return _ASSETS.joinpath(*name.split("/")).read_text(encoding="utf-8")
+
+
+def _joined(folder: str) -> str:
+    """Return the texts of a folder in ``assets`` as one; their names begin with their place in the order."""
+    names = sorted(file.name for file in _ASSETS.joinpath(folder).iterdir())
+    return "\n".join(asset(f"{folder}/{name}") for name in names)
 
 
 def policy(styles: Sequence[str], scripts: Sequence[str]) -> str:

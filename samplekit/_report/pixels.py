@@ -11,7 +11,6 @@ from __future__ import annotations
 import base64
 import math
 import zlib
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -36,23 +35,7 @@ BUDGET = 18_000_000
 _INVALID = 0xFFFFFF
 
 
-@dataclass(frozen=True)
-class Packed:
-    """The images of a page.
-
-    Attributes
-    ----------
-    scenes
-        What the scripts of the page read about each scene with images.
-    blobs
-        The packed pixels by the names that occur in ``scenes``.
-    """
-
-    scenes: list[dict[str, Any]]
-    blobs: dict[str, str]
-
-
-def packed(results: Results, folder: Path, budget: int = BUDGET) -> Packed:
+def packed(results: Results, folder: Path, budget: int = BUDGET) -> tuple[list[dict[str, Any]], dict[str, str]]:
     """Pack the images of the first trials, for every scene that has images.
 
     Parameters
@@ -62,60 +45,53 @@ def packed(results: Results, folder: Path, budget: int = BUDGET) -> Packed:
     budget
         Most characters that all images take together.
 
+    Returns
+    -------
+    scenes
+        What the scripts of the page read about each scene with images.
+    blobs
+        The packed pixels by the names that occur in ``scenes``.
+
     Raises
     ------
     UsageError, SamplekitError
         An EXR file is missing or damaged, or has another size than the study.
     """
-    rows_of = {
-        scene: [(index, row) for index, row in enumerate(results.rows) if row.scene == scene and row.pictures]
-        for scene in results.scenes
-    }
-    size = results.size
-    weights: dict[str, NDArray[np.float64]] = {}
+    rows_of: dict[str, list[tuple[int, Row]]] = {}
+    for index, row in enumerate(results.rows):
+        if row.pictures:
+            rows_of.setdefault(row.scene, []).append((index, row))
+    size, places = results.size, dict.fromkeys(rows_of, (0, 0))
     while True:
         scenes: list[dict[str, Any]] = []
         blobs: dict[str, str] = {}
+        weights: dict[str, NDArray[np.float64]] = {}
         for scene, rows in rows_of.items():
-            if not rows:
-                continue
-            place = _heaviest(weights[scene], size) if weights and size != results.size else (0, 0)
-            weight = np.zeros((results.size[1], results.size[0]))
-            items, reference = _images(rows, folder, results.size, (*place, *size), weight, blobs)
-            weights[scene] = weight
-            scenes.append(
-                {
-                    "scene": scene,
-                    "width": size[0],
-                    "height": size[1],
-                    "window": place,
-                    "windowed": size != results.size,
-                    "reference": reference,
-                    "items": items,
-                }
-            )
+            packed_scene, weights[scene] = _pack_scene(rows, folder, results.size, (*places[scene], *size), blobs)
+            scenes.append(packed_scene)
         needed = sum(len(text) for text in blobs.values())
         if needed <= budget or max(size) == 1:
-            return Packed(scenes, blobs)
+            return scenes, blobs
         shrink = 0.97 * math.sqrt(budget / needed)
         size = (max(1, int(shrink * size[0])), max(1, int(shrink * size[1])))
+        places = {scene: _heaviest(weight, size) for scene, weight in weights.items()}
 
 
-def _images(
+def _pack_scene(
     rows: Sequence[tuple[int, Row]],
     folder: Path,
     whole: tuple[int, int],
     window: tuple[int, int, int, int],
-    weight: NDArray[np.float64],
     blobs: dict[str, str],
-) -> tuple[list[dict[str, Any]], str]:
+) -> tuple[dict[str, Any], NDArray[np.float64]]:
     """Pack the images of one scene into ``blobs``.
 
-    Add their squared errors to ``weight`` float64[h, w], scaled so that all images weigh the same. Return what the
-    scripts read about the images, and the name of the packed reference.
+    Return what the scripts read about the scene, and float64[h, w]: the sum of the squared errors of all images, scaled
+    so that each image weighs the same.
     """
     left, top, width, height = window
     cut = np.s_[top : top + height, left : left + width]
+    weight = np.zeros((whole[1], whole[0]))
     items: list[dict[str, Any]] = []
     reference_name = f"reference-{rows[0][0]}"
     for index, row in rows:
@@ -128,7 +104,16 @@ def _images(
         name = f"error-{index}"
         blobs[name], step = pack_error(error[cut])
         items.append({"row": index, "step": step, "mse": mse, "rmse": math.sqrt(mse), "pixels": name})
-    return items, reference_name
+    record = {
+        "scene": rows[0][1].scene,
+        "width": width,
+        "height": height,
+        "window": (left, top),
+        "windowed": (width, height) != whole,
+        "reference": reference_name,
+        "items": items,
+    }
+    return record, weight
 
 
 def _parts(row: Row, folder: Path, size: tuple[int, int]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -138,7 +123,7 @@ def _parts(row: Row, folder: Path, size: tuple[int, int]) -> tuple[NDArray[np.fl
     parts = read_parts(path).parts
     for name in ("reference", "error"):
         if name not in parts or parts[name].shape != (size[1], size[0]):
-            raise SamplekitError(f"{path} has no part {name} of {size[0]} x {size[1]} pixels: run the study anew")
+            raise SamplekitError(f"{path} has no part {name} of {size[0]} x {size[1]} pixels: run the study again")
     return parts["reference"], parts["error"]
 
 

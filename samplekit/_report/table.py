@@ -6,11 +6,13 @@ import csv
 import io
 import itertools
 from operator import attrgetter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from samplekit._study.results import Interval
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from samplekit._study.results import Results, Row
 
 _INTERVALS = ("mse", "rmse", "bias", "variance", "squared_bias", "blurred_mse", "efficiency", "ratio")
@@ -21,11 +23,15 @@ _TIMES = (*map(".".join, _SECONDS), "setup_cpu", "setup_wall", "laps")
 
 def csv_text(results: Results) -> str:
     """Return the rows of a study as CSV, with a header; numbers have all their digits."""
+    return records_text([_line(row) for row in results.rows])
+
+
+def records_text(records: Sequence[dict[str, Any]]) -> str:
+    """Return records that have the same keys as CSV, with a header; numbers have all their digits."""
     out = io.StringIO()
-    lines = [_line(row) for row in results.rows]
-    writer = csv.DictWriter(out, list(lines[0]) if lines else [], lineterminator="\n")
+    writer = csv.DictWriter(out, list(records[0]) if records else [], lineterminator="\n")
     writer.writeheader()
-    writer.writerows(lines)
+    writer.writerows(records)
     return out.getvalue()
 
 

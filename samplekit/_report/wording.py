@@ -65,14 +65,6 @@ def plain(value: float | None) -> str:
     return "" if value is None else repr(value)
 
 
-FILTERS: dict[str, Callable[..., str]] = {
-    "number": number,
-    "seconds": seconds,
-    "exponent": exponent,
-    "short": short,
-    "grouped": grouped,
-    "counted": counted,
-    "plain": plain,
-    "address": quote,
-}
+_FUNCTIONS: tuple[Callable[..., str], ...] = (number, seconds, exponent, short, grouped, counted, plain)
+FILTERS = {each.__name__: each for each in _FUNCTIONS} | {"address": quote}
 """The filters of the template, by the names that it writes after ``|``."""

@@ -13,16 +13,14 @@ import numpy as np
 from samplekit.kernels import dd_add, kernel, two_product
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from numpy.typing import NDArray
 
     Array = NDArray[np.float64]
 
 
 @kernel("void(float64[:,::1], float64[:,::1])")
-def _accumulate(values: Array, totals: Array) -> None:
-    """Add the finite values float64[R, n] to the totals float64[R, 2], high and low parts."""
+def accumulate(values: Array, totals: Array) -> None:
+    """Add the finite values float64[R, n] to the totals float64[R, 2], of which each has a high and a low part."""
     for row in range(values.shape[0]):
         high, low = totals[row, 0], totals[row, 1]
         for i in range(values.shape[1]):
@@ -39,23 +37,8 @@ def _compare(totals: Array, means: Array, count: float, apart: Array) -> None:
         apart[row] = dd_add(product, low, -totals[row, 0], -totals[row, 1])[0] / count
 
 
-class ExtendedSums:
-    """Sums of the values of several realisations, block by block."""
-
-    def __init__(self, realizations: int) -> None:
-        self._totals = np.zeros((realizations, 2))
-
-    def add(self, parts: Sequence[Array]) -> None:
-        """Add blocks of values float64[R, n]; values that are not finite are left out."""
-        for values in parts:
-            _accumulate(np.ascontiguousarray(values), self._totals)
-
-    def mean(self, count: int) -> Array:
-        """Return the means float64[R] of ``count`` values, rounded once."""
-        return self._totals[:, 0] / count
-
-    def apart(self, means: Array, count: int) -> Array:
-        """Return the differences float64[R] of means of ``count`` values from these sums, without cancellation."""
-        apart = np.empty(means.size)
-        _compare(self._totals, np.ascontiguousarray(means), float(count), apart)
-        return apart
+def distances(means: Array, totals: Array, count: int) -> Array:
+    """Return float64[R]: how far means of ``count`` values lie above those of the totals, without cancellation."""
+    apart = np.empty(means.size)
+    _compare(totals, np.ascontiguousarray(means), float(count), apart)
+    return apart

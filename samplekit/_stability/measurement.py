@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,7 +12,7 @@ import numpy as np
 from samplekit._bases.realizations import Realizations
 from samplekit._integrate.loop import integrate, unit_square
 from samplekit._integrate.plan import check_points
-from samplekit._stability.extended import ExtendedSums
+from samplekit._stability.extended import accumulate, distances
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -32,7 +32,7 @@ _MOST_DIGITS = 16.0
 
 @dataclass(frozen=True)
 class Measurement:
-    """Estimates of a scene over the unit square as one pixel.
+    """Estimates of a scene over the unit square as one pixel. If one of them is not finite, all errors are NaN.
 
     Attributes
     ----------
@@ -68,19 +68,19 @@ class Measurement:
 
     exact: float
     reference_error: float
-    estimate: float
-    error: float
-    spread: float
-    standard_error: float
-    rms_error: float
-    sampling_error: float
-    arithmetic_error: float
-    digits_lost: float
     magnitude: float
     deviation: float
     hits: float
     invalid: int
     samples: int
+    estimate: float = math.nan
+    error: float = math.nan
+    spread: float = math.nan
+    standard_error: float = math.nan
+    rms_error: float = math.nan
+    sampling_error: float = math.nan
+    arithmetic_error: float = math.nan
+    digits_lost: float = math.nan
 
     @property
     def allowance(self) -> float:
@@ -186,42 +186,48 @@ def measure(
     check_points(scene, sampler, count)
     sampler.prepare(count, scene.dims)
     trials = Realizations.of_trials(0, realizations, seed, scene.blocks)
-    extended, magnitudes, moments = ExtendedSums(realizations), ExtendedSums(realizations), _Moments()
+    totals, magnitude_totals, moments = np.zeros((realizations, 2)), np.zeros((realizations, 2)), _Moments()
 
     def observe(tile: Array, boxes: Array) -> None:
         values = scene.values(tile, boxes)
         moments.add(values)
-        magnitudes.add((np.abs(values),))
-        extended.add(scene.parts(tile, boxes))
+        accumulate(np.ascontiguousarray(np.abs(values)), magnitude_totals)
+        for part in scene.parts(tile, boxes):
+            accumulate(np.ascontiguousarray(part), totals)
 
     # All realisations share one tile, so the moments are about the median of the first block of all realisations.
     (estimates,) = integrate(
         scene, sampler, (count,), trials, unit_square(realizations), tick=tick, observe=observe, tile_bytes=sys.maxsize
     )
-    with np.errstate(all="ignore"):
-        apart = extended.apart(estimates, count)
-        exact = float(reference.image[0, 0])
-        errors = estimates - exact
-        unrounded = -extended.apart(np.full(realizations, exact), count)
-        random = sampler.spec.randomized and realizations > 1
-        spread, sampling_error = (_spread(each) if random else math.nan for each in (errors, unrounded))
-    finite = bool(np.isfinite(estimates).all())
-    return Measurement(
+    exact = float(reference.image[0, 0])
+    magnitudes = magnitude_totals[:, 0] / count
+    measured = Measurement(
         exact=exact,
         reference_error=reference.error,
-        estimate=_mean(estimates) if finite else math.nan,
-        error=_mean(errors) if finite else math.nan,
-        spread=spread if finite else math.nan,
-        standard_error=spread / math.sqrt(realizations) if finite else math.nan,
-        rms_error=_root_mean_square(errors) if finite else math.nan,
-        sampling_error=sampling_error if finite else math.nan,
-        digits_lost=_digits_lost(apart, magnitudes.mean(count)) if finite else math.nan,
-        arithmetic_error=float(np.abs(apart).max()) if finite else math.nan,
-        magnitude=_mean(magnitudes.mean(count)),
+        magnitude=_mean(magnitudes),
         deviation=moments.deviation,
         hits=moments.hits,
         invalid=moments.invalid,
         samples=count * realizations,
+    )
+    if not np.isfinite(estimates).all():
+        return measured
+    with np.errstate(all="ignore"):
+        rounding = distances(estimates, totals, count)
+        unrounded = -distances(np.full(realizations, exact), totals, count)
+        errors = estimates - exact
+        random = sampler.spec.randomized and realizations > 1
+        spread, sampling_error = (_spread(each) if random else math.nan for each in (errors, unrounded))
+    return replace(
+        measured,
+        estimate=_mean(estimates),
+        error=_mean(errors),
+        spread=spread,
+        standard_error=spread / math.sqrt(realizations),
+        rms_error=_root_mean_square(errors),
+        sampling_error=sampling_error,
+        arithmetic_error=float(np.abs(rounding).max()),
+        digits_lost=_digits_lost(rounding, magnitudes),
     )
 
 

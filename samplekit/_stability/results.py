@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -156,7 +154,7 @@ class Stability:
         lines.append(f"{len(self.cells)} cells: {', '.join(f'{number} {kind}' for kind, number in tally.items())}")
         lines += [f"  {kind}: {meaning}" for kind, meaning in MEANINGS.items() if kind != "right" and kind in tally]
         lines += [
-            f"wrong: {cell.name}:{cell.extreme}, {cell.sampler}, {cell.count}: {cell.verdict.reason}"
+            f"wrong: {scene_text(cell.name, cell.extreme)}, {cell.sampler}, {cell.count}: {cell.verdict.reason}"
             for cell in self.wrong
         ]
         return lines
@@ -204,6 +202,7 @@ class Stability:
             A file cannot be written.
         """
         from samplekit._provenance import versions
+        from samplekit._report.table import records_text
         from samplekit.files import text_writer, write_group
         from samplekit.plots import figure_writer
 
@@ -214,9 +213,10 @@ class Stability:
             "seed": str(self.seed),
             "versions": versions(),
         }
-        items = [(folder / "stability.csv", text_writer([_csv_text(self.cells)]))]
+        records = [cell.as_json() for cell in self.cells]
+        items = [(folder / "stability.csv", text_writer([records_text(records)]))]
         for name in dict.fromkeys(cell.name for cell in self.cells):
-            own = [cell.as_json() for cell in self.cells if cell.name == name]
+            own = [record for cell, record in zip(self.cells, records, strict=True) if cell.name == name]
             writer = figure_writer(self.plot(name).figure_, ".png", {**metadata, "scene": name, "cells": own})
             items.append((folder / f"{name.replace('/', '-')}.png", writer))
         write_group(items)
@@ -227,16 +227,6 @@ def _words(cell: Cell) -> str:
     if cell.verdict.kind == "right" and cell.measured:
         return f"{cell.measured.digits_right:.1f} digits"
     return cell.verdict.kind
-
-
-def _csv_text(cells: Sequence[Cell]) -> str:
-    """Return a line for each cell, numbers with all their digits, below a header."""
-    records = [cell.as_json() for cell in cells]
-    out = io.StringIO()
-    writer = csv.DictWriter(out, list(records[0]) if records else [], lineterminator="\n")
-    writer.writeheader()
-    writer.writerows(records)
-    return out.getvalue()
 
 
 def precision_lost_beyond(cells: Sequence[Cell]) -> dict[tuple[str, str, str], int]:

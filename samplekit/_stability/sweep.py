@@ -98,33 +98,12 @@ def stability(
     if output is not None and not Path(output).is_dir():
         raise UsageError(f"--output {os.fspath(output)}: there is no such folder")
     scenes, samplers = ([each] if isinstance(each, str) else each for each in (scenes, samplers))
-    cells = sweep(
-        scenes_of(list(dict.fromkeys(scenes))),
-        list(dict.fromkeys(samplers)),
-        counts,
-        realizations=realizations,
-        seed=seed,
-        progress=progress,
-    )
-    swept = Stability(cells, realizations, seed)
-    return swept if output is None else swept.save(output)
-
-
-def sweep(
-    scenes: Sequence[tuple[str, str]],
-    samplers: Sequence[str],
-    counts: Sequence[int],
-    *,
-    realizations: int = REALIZATIONS,
-    seed: int = 0,
-    progress: Callable[[int, int], None] = lambda _, __: None,
-) -> list[Cell]:
-    """Measure and judge every cell, with the parameters of :func:`stability`; ``scenes`` is from :func:`scenes_of`."""
-    configured = [configured_sampler(text) for text in samplers]
-    total, done = len(scenes) * len(samplers) * sum(counts) * realizations, 0
+    chosen = scenes_of(scenes)
+    configured = [configured_sampler(text) for text in dict.fromkeys(samplers)]
+    total, done = len(chosen) * len(configured) * sum(counts) * realizations, 0
     cells = []
     edges = np.array([0.0, 1.0])
-    for name, extreme in scenes:
+    for name, extreme in chosen:
         scene = configured_scene(scene_text(name, extreme))
         reference = scene.reference(edges, edges)
         for sampler in configured:
@@ -133,7 +112,8 @@ def sweep(
                 cells.append(Cell(name, extreme, sampler.text, count, *outcome))
                 done += count * realizations
                 progress(done, total)
-    return cells
+    swept = Stability(cells, realizations, seed)
+    return swept if output is None else swept.save(output)
 
 
 def _measure_and_judge(
@@ -145,16 +125,15 @@ def _measure_and_judge(
     reference: Reference,
 ) -> tuple[Measurement | None, Verdict, bool]:
     """Return the measurement and the verdict, and whether a first verdict was ``wrong`` and this is a second one."""
-
-    def judged(seed: int) -> tuple[Measurement, Verdict]:
-        measured = measure(scene, sampler, count, realizations=realizations, seed=seed, reference=reference)
-        return measured, judge(measured, randomized=sampler.spec.randomized, finite_variance=scene.finite_variance)
-
-    try:
-        measured, verdict = judged(seed)
-        repeated = verdict.kind == "wrong"
-        if repeated:
-            measured, verdict = judged(seed ^ (LARGEST_SEED >> 1))
-    except UsageError as error:
-        return None, Verdict("refused", str(error)), False
+    repeated = False
+    # A second seed must confirm that an estimate is wrong.
+    for own_seed in (seed, seed ^ (LARGEST_SEED >> 1)):
+        try:
+            measured = measure(scene, sampler, count, realizations=realizations, seed=own_seed, reference=reference)
+        except UsageError as error:
+            return None, Verdict("refused", str(error)), False
+        verdict = judge(measured, finite_variance=scene.finite_variance)
+        if verdict.kind != "wrong":
+            break
+        repeated = True
     return measured, verdict, repeated

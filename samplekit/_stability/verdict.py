@@ -22,11 +22,11 @@ MEANINGS: dict[Kind, str] = {
     "right": f"within {_STANDARD_ERRORS:g} standard errors and rounding",
     "no hits": "right, but no sample hit: all are the same, the variance is 0 and nothing has converged",
     "few hits": f"beyond {_STANDARD_ERRORS:g} standard errors, from fewer than {_ENOUGH_HITS:g} samples that hit",
-    "infinite variance": "a standard error means nothing",
+    "infinite variance": "the standard error says nothing about the error",
     "precision lost": "rounding is larger than the error of sampling",
     "not random": "one set: no standard error",
     "invalid": "values that are not finite",
-    "refused": "the sampler makes no such sets",
+    "refused": "the sampler cannot make such sets",
     "wrong": f"beyond {_STANDARD_ERRORS:g} standard errors twice, with independent seeds",
 }
 
@@ -39,15 +39,13 @@ class Verdict:
     reason: str = ""
 
 
-def judge(measured: Measurement, *, randomized: bool, finite_variance: bool) -> Verdict:
+def judge(measured: Measurement, *, finite_variance: bool) -> Verdict:
     """Judge one measurement; a second one with another seed must confirm ``wrong``.
 
     Parameters
     ----------
     measured
         The measurement.
-    randomized
-        Whether the realisations of the sampler differ.
     finite_variance
         Whether the values of the scene have a finite variance.
     """
@@ -64,13 +62,13 @@ def judge(measured: Measurement, *, randomized: bool, finite_variance: bool) -> 
             f" the variance is 0, and the error {measured.error:.3g}",
         )
     if not finite_variance:
-        return Verdict("infinite variance", f"{errors}, which mean nothing")
+        return Verdict("infinite variance", f"{errors}, which say nothing about the error")
     rounding, sampling = measured.arithmetic_error, measured.sampling_error
     if rounding > _VISIBLE * measured.deviation > 0.0 and not rounding <= sampling:
         return Verdict("precision lost", f"rounding {rounding:.2g}, error of sampling {sampling:.2g}")
     if within or abs(measured.standard_errors) <= _STANDARD_ERRORS:
         return Verdict("right")
-    if not randomized or math.isnan(measured.spread):
+    if math.isnan(measured.spread):
         return Verdict("not random", f"the error of the one set is {measured.error:.2g}")
     if measured.hits < _ENOUGH_HITS:
         return Verdict("few hits", f"{errors}, and {measured.hits:.0f} samples that hit")

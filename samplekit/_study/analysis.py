@@ -10,20 +10,16 @@ import numpy as np
 from samplekit._study.errors import errors_of, influence, ratio_of
 from samplekit._study.fit import fit_line, theoretical_exponent
 from samplekit._study.results import Fit, Interval, LeftOut, Row, Seconds, Spread, Times
-from samplekit._study.trials import TRIALS
+from samplekit._study.trials import TRIALS, Array
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import NDArray
-
     from samplekit._bases.reference import Reference
     from samplekit._study.combinations import Combination
-    from samplekit._study.request import Request
+    from samplekit._study.request import ExecutionOptions, Request
     from samplekit._study.resources import Resources
     from samplekit._study.store import Store
-
-    Array = NDArray[np.float64]
 
 _TRUSTED = 10.0
 """An rmse tells something about the sampler only if it is this many times the reference's own error."""
@@ -36,16 +32,10 @@ class Analysis:
 
     Parameters
     ----------
-    request, combinations
+    request, options, combinations
         What was asked for, and the rows that there can be.
     store, resources
         The sums and times that were found; the scenes and references.
-    machine
-        The kind of machine whose times are used.
-    cost
-        Extra cost per sample, in nanoseconds.
-    fitted
-        First and last count that fits use; None: all counts.
 
     Attributes
     ----------
@@ -60,19 +50,16 @@ class Analysis:
     def __init__(
         self,
         request: Request,
+        options: ExecutionOptions,
         combinations: Sequence[Combination],
         store: Store,
         resources: Resources,
-        machine: str,
-        cost: float,
-        fitted: tuple[int, int] | None,
     ) -> None:
         self._request = request
         self._resources = resources
         self._store = store
-        self._machine = machine
-        self._cost = cost
-        self._fitted = fitted or (1, max(combination.count for combination in combinations))
+        self._cost = options.cost
+        self._fitted = options.fitted or (1, max(combination.count for combination in combinations))
         self._sums = {combination: store.sums(combination) for combination in combinations}
         self._done = {each: sum(last - first for first, last in store.ranges(each)) for each in combinations}
         self.combinations = [each for each in combinations if len(self._sums[each])]
@@ -104,18 +91,11 @@ class Analysis:
             counts = [row.count for _, row in used]
             line = fit_line(counts, [row.mse.estimate or 0.0 for _, row in used], influences)
             if line is not None:
+                left_out = {row.count: row.left_out for _, row in own if not row.fitted}
+                slope, constant, scatter = line
                 case, theory = theoretical_exponent(*pair)
-                fit = Fit(
-                    *pair,
-                    **vars(line),
-                    first=counts[0],
-                    last=counts[-1],
-                    counts=counts,
-                    left_out={row.count: row.left_out for _, row in own if not row.fitted},
-                    case=case,
-                    theory=theory,
-                )
-                fits.append(fit)
+                ends = counts[0], counts[-1]
+                fits.append(Fit(*pair, slope, constant, scatter, *ends, counts, left_out, case, theory))
         return fits
 
     def _row(self, combination: Combination) -> Row:
@@ -124,16 +104,17 @@ class Analysis:
         samples = self._samples(combination)
         times = self._times(combination)
         time = None if times is None else times.total.cpu.median + self._cost * 1e-9 * samples
-        left_out = self._why_left_out(combination, errors.mse.estimate, reference)
+        mse: Interval = errors["mse"]
+        left_out = self._why_left_out(combination, mse.estimate, reference)
         notes = list(combination.notes)
         if self._done[combination] < combination.trials:
             notes.append(f"interrupted: {self._done[combination]} of {combination.trials} trials")
-        if errors.mse.estimate == 0.0:
+        if mse.estimate == 0.0:
             notes.append("exact: every trial gave the reference to the last bit")
         elif left_out and self._fitted[0] <= combination.count <= self._fitted[1]:
             notes.append(left_out)
-        if errors.invalid_pixels:
-            notes.append(f"{errors.invalid_pixels} pixels of all trials were not finite and are left out")
+        if errors["invalid_pixels"]:
+            notes.append(f"{errors['invalid_pixels']} pixels of all trials were not finite and are left out")
         return Row(
             scene=combination.scene,
             sampler=combination.sampler,
@@ -142,8 +123,8 @@ class Analysis:
             replaced=combination.replaced,
             dims=combination.dims,
             samples=samples,
-            **vars(errors),
-            efficiency=_efficiency(errors.mse, time),
+            **errors,
+            efficiency=_efficiency(mse, time),
             ratio=self._ratio(combination),
             reference_error=reference.error,
             reference_kind=reference.kind,
@@ -186,12 +167,12 @@ class Analysis:
         return None
 
     def _times(self, combination: Combination) -> Times | None:
-        laps = self._store.laps(self._machine, combination)
+        laps = self._store.laps(combination)
         if not len(laps):
             return None
         points, scene = (Seconds(_spread(laps[:, column]), _spread(laps[:, column + 1])) for column in (0, 2))
         total = Seconds(_spread(laps[:, 0] + laps[:, 2]), _spread(laps[:, 1] + laps[:, 3]))
-        return Times(points, scene, total, *self._store.setup(self._machine, combination), len(laps))
+        return Times(points, scene, total, *self._store.setup(combination), len(laps))
 
 
 def _spread(seconds: Array) -> Spread:

@@ -6,13 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit._metrics import BLUR_RADIUS, BLUR_WEIGHTS, blur
+from samplekit._metrics import BLUR_RADIUS, BLUR_WEIGHTS, Array, blur
 from samplekit.kernels import helper, kernel
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
 
 
 @helper
@@ -77,13 +75,13 @@ def blurred_mean_square(error: Array, valid: NDArray[np.bool_]) -> float:
     Parameters
     ----------
     error
-        float64[h, w], 0 where it is not valid.
+        float64[h, w].
     valid
         bool[h, w], true for at least one pixel. The others are left out of the blur as in
         :func:`samplekit._metrics.metrics`.
     """
     if not valid.all():
-        return float(np.mean(np.square(blur(error, valid)[valid])))
+        return float(np.mean(np.square(blur(np.where(valid, error, 0.0), valid)[valid])))
     squares = np.empty(error.shape[0])
     _blurred_squares(np.ascontiguousarray(error), BLUR_WEIGHTS, squares)
     return float(squares.sum() / error.size)

@@ -7,14 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 from samplekit._errors import SamplekitError, UsageError
 from samplekit._provenance import versions
-from samplekit._study.resources import Resources
-from samplekit._study.trials import carry_out
+from samplekit._study.trials import Array, carry_out
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
-
-    import numpy as np
-    from numpy.typing import NDArray
 
     from samplekit._study.jobs import Job
     from samplekit._study.processes import JobResults
@@ -25,101 +21,88 @@ _PATIENCE = 20.0
 """Seconds to wait for the scheduler, and for a first worker."""
 
 
-class Cluster:
-    """A connection to a scheduler.
-
-    Parameters
-    ----------
-    address
-        Address of the scheduler, such as ``tcp://host:8786``.
+def connect(address: str) -> Any:
+    """Return a client of the Dask scheduler at an address such as ``tcp://host:8786``; the caller closes it.
 
     Raises
     ------
     UsageError
         The extra ``dask`` is not installed, or there is no scheduler or no worker at the address.
     """
-
-    def __init__(self, address: str) -> None:
-        try:
-            from distributed import Client
-        except ImportError:
-            raise UsageError("--dask needs the package distributed: pip install 'samplekit-core[dask]'") from None
-        try:
-            self._client: Any = Client(address, timeout=_PATIENCE, set_as_default=False)
-        except (OSError, ValueError, TypeError) as error:
-            raise UsageError(f"no Dask scheduler answers at {address}: {' '.join(str(error).split())}") from None
-        try:
-            self._client.wait_for_workers(1, timeout=_PATIENCE)
-        except Exception as error:
-            self.close()
-            raise UsageError(f"the Dask scheduler at {address} has no workers: {error}") from None
-
-    def close(self) -> None:
-        """Close the connection and leave the cluster as it was."""
-        self._client.close()
-
-    @property
-    def threads(self) -> int:
-        """Number of threads of all workers together."""
-        workers = self._client.scheduler_info(n_workers=-1)["workers"].values()
-        return sum(int(worker["nthreads"]) for worker in workers) or 1
-
-    def run(self, jobs: Sequence[Job], tick: Callable[[int], None]) -> JobResults:
-        """Carry out jobs, and yield each with its sums in the order in which they end.
-
-        If a worker dies, other workers repeat its jobs.
-
-        Parameters
-        ----------
-        jobs
-            The jobs to carry out.
-        tick
-            Called with the number of samples of each job that ends.
-
-        Raises
-        ------
-        SamplekitError
-            A job fails, a worker has other versions, or workers keep dying of a job.
-        """
-        from distributed import KilledWorker, as_completed
-
-        expected = versions()
-        waiting = iter(jobs)
-
-        def submit(job: Job) -> Any:
-            return self._client.submit(_carry_out_there, job, expected, pure=False)
-
-        running = {submit(job): job for job in itertools.islice(waiting, _AHEAD * self.threads)}
-        try:
-            finished = as_completed(list(running), loop=self._client.loop)
-            for future in finished:
-                job = running.pop(future)
-                try:
-                    sums = future.result()
-                except KilledWorker:
-                    raise SamplekitError(
-                        f"workers keep dying of {job.sampler} with {job.counts[-1]} samples on {job.scene}:"
-                        " out of memory? With --output, --resume continues from what was done"
-                    ) from None
-                except OSError as error:
-                    raise SamplekitError(f"the Dask cluster was lost: {' '.join(str(error).split())}") from None
-                for following in itertools.islice(waiting, 1):
-                    running[submit(following)] = following
-                    finished.add(next(reversed(running)))
-                tick(job.samples)
-                yield job, sums
-        finally:
-            self._client.cancel(list(running))
+    try:
+        from distributed import Client
+    except ImportError:
+        raise UsageError("--dask needs the package distributed: pip install 'samplekit-core[dask]'") from None
+    try:
+        client = Client(address, timeout=_PATIENCE, set_as_default=False)
+    except (OSError, ValueError, TypeError) as error:
+        raise UsageError(f"no Dask scheduler answers at {address}: {' '.join(str(error).split())}") from None
+    try:
+        client.wait_for_workers(1, timeout=_PATIENCE)
+    except Exception as error:
+        client.close()
+        raise UsageError(f"the Dask scheduler at {address} has no workers: {error}") from None
+    return client
 
 
-_resources = Resources()
-"""The resources of this worker process, for all of its threads."""
+def count_threads(client: Any) -> int:
+    """Return the number of threads of all workers together."""
+    workers = client.scheduler_info(n_workers=-1)["workers"].values()
+    return sum(int(worker["nthreads"]) for worker in workers) or 1
 
 
-def _carry_out_there(job: Job, expected: dict[str, str]) -> NDArray[np.float64]:
+def on_cluster(client: Any, jobs: Sequence[Job], tick: Callable[[int], None]) -> JobResults:
+    """Carry out jobs, and yield each with its sums in the order in which they end.
+
+    If a worker dies, other workers repeat its jobs.
+
+    Parameters
+    ----------
+    client, jobs
+        What :func:`connect` returned, and the jobs to carry out.
+    tick
+        Called with the number of samples of each job that ends.
+
+    Raises
+    ------
+    SamplekitError
+        A job fails, a worker has other versions, or workers keep dying of a job.
+    """
+    from distributed import KilledWorker, as_completed
+
+    expected = versions()
+    waiting = iter(jobs)
+
+    def submit(job: Job) -> Any:
+        return client.submit(_carry_out_there, job, expected, pure=False)
+
+    running = {submit(job): job for job in itertools.islice(waiting, _AHEAD * count_threads(client))}
+    try:
+        finished = as_completed(list(running), loop=client.loop)
+        for future in finished:
+            job = running.pop(future)
+            try:
+                sums = future.result()
+            except KilledWorker:
+                raise SamplekitError(
+                    f"workers keep dying of {job.sampler} with {job.counts[-1]} samples on {job.scene}:"
+                    " out of memory? With --output, --resume continues from what was done"
+                ) from None
+            except OSError as error:
+                raise SamplekitError(f"the Dask cluster was lost: {' '.join(str(error).split())}") from None
+            for following in itertools.islice(waiting, 1):
+                running[submit(following)] = following
+                finished.add(next(reversed(running)))
+            tick(job.samples)
+            yield job, sums
+    finally:
+        client.cancel(list(running))
+
+
+def _carry_out_there(job: Job, expected: dict[str, str]) -> Array:
     # Checked with each job, since workers may join at any time.
     found = versions()
     for name, version in expected.items():
         if found.get(name) != version:
             raise SamplekitError(f"a Dask worker has {name} {found.get(name)}, this is {version}: results would differ")
-    return carry_out(job, _resources)
+    return carry_out(job)

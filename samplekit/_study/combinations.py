@@ -87,10 +87,8 @@ def list_combinations(request: Request, resources: Resources) -> tuple[list[Comb
                 else:
                     found.setdefault(count, []).append(asked)
                     reasons[count] = reasons.get(count) or reason
-            combinations += [
-                _combination(request, scene, sampler, count, tuple(asked), reasons[count])
-                for count, asked in sorted(found.items())
-            ]
+            for count, counts in sorted(found.items()):
+                combinations.append(_combination(request, scene, sampler, count, tuple(counts), reasons[count]))
     if not combinations:
         raise UsageError(left_out[0].reason)
     return combinations, left_out
@@ -118,7 +116,7 @@ def _combination(
     sampler: ConfiguredSampler,
     count: int,
     asked: tuple[int, ...],
-    reason: str,
+    replaced: str,
 ) -> Combination:
     notes = list(sampler.notes(count, scene.dims))
     trials = request.trials
@@ -128,7 +126,7 @@ def _combination(
         notes.append("not random: every trial is the same, so one was made, and errors have no interval")
     elif request.one_pixel and spec.period is not None and spec.period < trials:
         trials = spec.period
-        notes.append(f"has {spec.period} sets and no more: so many trials")
+        notes.append(f"has only {spec.period} sets, so only {spec.period} trials were made")
     if request.trials == 1 and spec.randomized:
         notes.append("a single trial: errors have no interval")
     if not spec.unbiased:
@@ -138,7 +136,7 @@ def _combination(
         sampler.text,
         count,
         asked,
-        reason if asked != (count,) else "",
+        replaced,
         scene.dims,
         trials,
         tuple(notes),

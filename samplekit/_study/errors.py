@@ -3,37 +3,17 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 
 from samplekit._study.intervals import mean_interval, positive_interval, student
 from samplekit._study.results import Interval
-from samplekit._study.trials import BLURRED, ERROR, INVALID, PAIRS, PRODUCT, SQUARE, TRIALS
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+from samplekit._study.trials import BLURRED, ERROR, INVALID, PAIRS, PRODUCT, SQUARE, TRIALS, Array
 
 
-@dataclass(frozen=True)
-class Errors:
-    """The errors of a combination; the fields are those of :class:`samplekit._study.results.Row`."""
-
-    trials: int
-    mse: Interval
-    rmse: Interval
-    bias: Interval
-    variance: Interval
-    squared_bias: Interval
-    blurred_mse: Interval | None
-    invalid_pixels: int
-
-
-def errors_of(sums: Array, *, one_pixel: bool) -> Errors:
-    """Return the errors of a combination.
+def errors_of(sums: Array, *, one_pixel: bool) -> dict[str, Any]:
+    """Return the errors of a combination by the names that they have in :class:`samplekit._study.results.Row`.
 
     Parameters
     ----------
@@ -45,16 +25,16 @@ def errors_of(sums: Array, *, one_pixel: bool) -> Errors:
     trials = sums[:, TRIALS]
     mse = positive_interval(sums[:, SQUARE], trials, one_pixel=one_pixel)
     pairs = _whole_pairs(sums)
-    return Errors(
-        int(trials.sum()),
-        mse,
-        _square_root(mse),
-        mean_interval(sums[:, ERROR], trials),
-        _variance_of_pixel(sums) if one_pixel else _variance_from_pairs(pairs),
-        mean_interval(pairs[:, PRODUCT], pairs[:, PAIRS]),
-        None if one_pixel else positive_interval(sums[:, BLURRED], trials, one_pixel=False),
-        int(sums[:, INVALID].sum()),
-    )
+    return {
+        "trials": int(trials.sum()),
+        "mse": mse,
+        "rmse": _square_root(mse),
+        "bias": mean_interval(sums[:, ERROR], trials),
+        "variance": _variance_of_pixel(sums) if one_pixel else _variance_from_pairs(pairs),
+        "squared_bias": mean_interval(pairs[:, PRODUCT], pairs[:, PAIRS]),
+        "blurred_mse": None if one_pixel else positive_interval(sums[:, BLURRED], trials, one_pixel=False),
+        "invalid_pixels": int(sums[:, INVALID].sum()),
+    }
 
 
 def influence(sums: Array) -> Array:

@@ -13,7 +13,6 @@ integration", ACM TOG 34(4).
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -24,9 +23,7 @@ from samplekit._study.results import Interval
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+    from samplekit._study.trials import Array
 
 
 _CASES = {"disk": "worst", "gaussian": "best"}
@@ -51,16 +48,9 @@ def theoretical_exponent(scene: str, sampler: str) -> tuple[str | None, float | 
     return case, _EXPONENTS.get(name, {}).get(case) if case else None
 
 
-@dataclass(frozen=True)
-class Line:
-    """A fitted line; the fields are those of :class:`samplekit._study.results.Fit`."""
-
-    slope: Interval
-    constant: float
-    scatter: float
-
-
-def fit_line(counts: Sequence[int], mses: Sequence[float], influences: Sequence[Array | None]) -> Line | None:
+def fit_line(
+    counts: Sequence[int], mses: Sequence[float], influences: Sequence[Array | None]
+) -> tuple[Interval, float, float] | None:
     """Fit a line to the logarithms of rows.
 
     Parameters
@@ -73,7 +63,7 @@ def fit_line(counts: Sequence[int], mses: Sequence[float], influences: Sequence[
 
     Returns
     -------
-    None if there are fewer than two rows.
+    Slope, constant and scatter, as in :class:`samplekit._study.results.Fit`; None if there are fewer than two rows.
     """
     rows = len(counts)
     if rows < 2:
@@ -90,12 +80,12 @@ def fit_line(counts: Sequence[int], mses: Sequence[float], influences: Sequence[
     by_scatter = scatter * float(coefficients @ coefficients)
     total = by_trials + by_scatter
     if total <= 0.0:
-        return Line(Interval(slope), constant, math.sqrt(scatter))
+        return Interval(slope), constant, math.sqrt(scatter)
     batches = min((len(part) for part in influences if part is not None), default=2)
     # Welch and Satterthwaite: degrees of freedom of a sum of two estimated variances.
     dof = total**2 / (by_trials**2 / max(batches - 1, 1) + by_scatter**2 / max(rows - 2, 1))
     reach = student(dof) * math.sqrt(total)
-    return Line(Interval(slope, slope - reach, slope + reach), constant, math.sqrt(scatter))
+    return Interval(slope, slope - reach, slope + reach), constant, math.sqrt(scatter)
 
 
 def _covariance(influences: Sequence[Array | None]) -> Array:
@@ -130,14 +120,15 @@ def _line_coefficients(x: Array, weights: Array) -> tuple[Array, Array]:
 def _find_scatter(x: Array, y: Array, known: Array) -> float:
     """Return the variance about the line, beyond ``known``, that gives the weighted residuals their expected size."""
 
+    def squared_residuals(weights: Array) -> Array:
+        slope, intercept = _line_coefficients(x, weights)
+        return (y - float(intercept @ y) - float(slope @ y) * x) ** 2
+
     def excess(scatter: float) -> float:
         weights = _weigh(known, scatter)
-        slope, intercept = _line_coefficients(x, weights)
-        residuals = y - float(intercept @ y) - float(slope @ y) * x
-        return float(weights @ residuals**2) - (x.size - 2)
+        return float(weights @ squared_residuals(weights)) - (x.size - 2)
 
-    slope, intercept = _line_coefficients(x, np.ones_like(x))
-    largest = float(np.sum((y - float(intercept @ y) - float(slope @ y) * x) ** 2))
+    largest = float(np.sum(squared_residuals(np.ones_like(x))))
     if largest <= 1e-24 or (known.max() > 0.0 and excess(0.0) <= 0.0):
         return 0.0
     low, high = 0.0, 4.0 * largest

@@ -26,17 +26,15 @@ from scipy.special import chdtri, stdtrit
 from samplekit._study.results import LEVEL, Interval
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+    from samplekit._study.trials import Array
 
 _TAIL = (1.0 - LEVEL) / 2.0
 _NORMAL = 2.0
 """Relative variance of the square of a normal variable with mean 0."""
 _FEW = 5
-"""With fewer batches their own skewness says nothing."""
+"""Smallest number of batches whose own skewness is used."""
 _WORTH = 10.0
-"""Number of trials as which this expectation counts where the observed variance is smaller."""
+"""Weight of the normal expectation, in trials, against the observed variance."""
 
 
 @lru_cache(1024)
@@ -71,10 +69,8 @@ def positive_interval(sums: Array, sizes: Array, *, one_pixel: bool) -> Interval
         Whether the numbers are squares of single errors; otherwise they are means over many pixels.
     """
     mean, error = _mean_and_error(sums, sizes)
-    if mean is None or error is None:
-        return Interval(mean)
-    if mean <= 0.0:
-        # All trials are exact, and none tells how large the error of the next may be.
+    # If all trials are exact, none tells how large the error of the next may be.
+    if mean is None or error is None or mean <= 0.0:
         return Interval(mean)
     batches = _count_batches(sizes)
     relative = batches * (error / mean) ** 2

@@ -10,6 +10,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
@@ -84,18 +86,18 @@ def _shared_draws(combinations: Iterable[Combination]) -> Iterator[list[Combinat
 def split(
     request: Request,
     combinations: Sequence[Combination],
-    missing: Callable[[Combination], Sequence[tuple[int, int]]],
+    done: Callable[[Combination], Sequence[tuple[int, int]]],
     seconds: Mapping[Combination, float],
     workers: int,
 ) -> list[Job]:
-    """Divide the missing trials into jobs, ordered so that all combinations progress together.
+    """Divide the trials that are not done into jobs, ordered so that all combinations progress together.
 
     Parameters
     ----------
     request, combinations
         The study.
-    missing
-        Returns the ranges of trials that a combination still needs; they begin and end where batches do.
+    done
+        Returns the ranges of trials that are done of a combination; they begin and end where batches do.
     seconds
         Approximate seconds of a trial.
     workers
@@ -107,8 +109,7 @@ def split(
         batch = batch_of(largest.trials)
         unit = max(batch, 2)
         counts = tuple(combination.count for combination in group)
-        # The counts of one draw have the same trials, unless somebody removed rows from the store.
-        for start, stop in _union(each for combination in group for each in missing(combination)):
+        for start, stop in missing_ranges([done(combination) for combination in group], largest.trials, batch):
             length = min(_SECONDS / max(seconds.get(largest, 0.0), 1e-9), (stop - start) / workers, _MOST_TRIALS)
             length = max(1, round(length / unit)) * unit
             for first in range(start, stop, length):
@@ -117,22 +118,22 @@ def split(
     return [job for _, job in sorted(jobs, key=lambda item: item[0])]
 
 
-def _union(ranges: Iterable[tuple[int, int]]) -> list[tuple[int, int]]:
-    """Join the ranges that overlap or touch."""
-    joined: list[tuple[int, int]] = []
-    for first, last in sorted(ranges):
-        if joined and first <= joined[-1][1]:
-            joined[-1] = joined[-1][0], max(joined[-1][1], last)
-        else:
-            joined.append((first, last))
-    return joined
+def missing_ranges(done: Iterable[Iterable[tuple[int, int]]], trials: int, batch: int) -> list[tuple[int, int]]:
+    """Return the ranges of trials, in rising order, that at least one count of a shared draw still needs.
 
-
-def gaps(ranges: Sequence[tuple[int, int]], trials: int) -> list[tuple[int, int]]:
-    """Return the parts of 0 to ``trials`` that lie between the ranges."""
-    found, end = [], 0
-    for first, last in [*sorted(ranges), (trials, trials)]:
-        if first > end:
-            found.append((end, first))
-        end = max(end, last)
-    return found
+    Parameters
+    ----------
+    done
+        For each count the ranges of trials that are done; they begin and end where batches do.
+    trials, batch
+        The number of all trials, and of those in a batch.
+    """
+    missing = np.zeros(-(-trials // batch) + 2, bool)
+    # The counts of one draw have the same trials, unless somebody removed rows from the store.
+    for ranges in done:
+        own = np.ones(missing.size - 2, bool)
+        for first, last in ranges:
+            own[first // batch : -(-last // batch)] = False
+        missing[1:-1] |= own
+    edges = np.flatnonzero(missing[1:] != missing[:-1]) * batch
+    return [(int(first), min(int(last), trials)) for first, last in edges.reshape(-1, 2)]

@@ -6,24 +6,20 @@ import multiprocessing
 import os
 import signal
 import threading
-from concurrent.futures import Executor, ProcessPoolExecutor
+from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from typing import TYPE_CHECKING
 
 from samplekit._errors import SamplekitError
-from samplekit._study.resources import Resources
-from samplekit._study.trials import carry_out
+from samplekit._study.trials import Array, carry_out
 from samplekit._threads import as_completed
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Generator, Sequence
 
-    import numpy as np
-    from numpy.typing import NDArray
-
     from samplekit._study.jobs import Job
 
-    JobResults = Generator[tuple[Job, NDArray[np.float64]], None, None]
+    JobResults = Generator[tuple[Job, Array], None, None]
 
 
 def in_processes(jobs: Sequence[Job], processes: int, tick: Callable[[int], None]) -> JobResults:
@@ -44,7 +40,7 @@ def in_processes(jobs: Sequence[Job], processes: int, tick: Callable[[int], None
     # A fork of a process that has written images hangs.
     pool = ProcessPoolExecutor(processes, multiprocessing.get_context("spawn"), _begin_worker)
     try:
-        for job, sums in as_completed(jobs, processes, lambda job: pool.submit(_carry_out_here, job)):
+        for job, sums in as_completed(jobs, processes, lambda job: pool.submit(carry_out, job)):
             tick(job.samples)
             yield job, sums
     except BrokenProcessPool:
@@ -52,24 +48,16 @@ def in_processes(jobs: Sequence[Job], processes: int, tick: Callable[[int], None
             "a worker process was ended from outside (out of memory?): with --output, --resume continues from there"
         ) from None
     finally:
-        children = _children(pool)
+        # The pool has no public way to end a worker in the middle of a job.
+        children = list((getattr(pool, "_processes", None) or {}).values())
         pool.shutdown(wait=False, cancel_futures=True)
         for child in children:
             child.terminate()
             child.join()
 
 
-def _children(pool: Executor) -> list[multiprocessing.process.BaseProcess]:
-    # The pool has no public way to end a worker in the middle of a job.
-    return list((getattr(pool, "_processes", None) or {}).values())
-
-
-_resources = Resources()
-"""The resources of this worker process."""
-
-
 def _begin_worker() -> None:
-    # The terminal interrupts all processes at once; the process that started them decides what happens.
+    # The terminal interrupts all processes at once. Workers ignore that: the process that started them ends them.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
 
@@ -80,7 +68,3 @@ def _end_with_parent() -> None:
     if parent is not None:
         parent.join()
         os._exit(1)
-
-
-def _carry_out_here(job: Job) -> NDArray[np.float64]:
-    return carry_out(job, _resources)

@@ -4,56 +4,61 @@ from __future__ import annotations
 
 import itertools
 import math
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from samplekit._study.results import Choice, Crossing, Flip, ToTarget
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterable, Sequence
 
     from samplekit._study.results import Row
 
 
-def _scenes(rows: Sequence[Row]) -> list[str]:
-    return list(dict.fromkeys(row.scene for row in rows))
+class Ranking(NamedTuple):
+    """The answers of a study, scene by scene; the fields are those of :class:`samplekit._study.results.Results`."""
+
+    target: dict[str, float]
+    to_target: list[ToTarget]
+    front: list[Choice]
+    flips: list[Flip]
+    crossings: list[Crossing]
 
 
-def _by_sampler(rows: Sequence[Row], scene: str) -> dict[str, list[Row]]:
-    found: dict[str, list[Row]] = {}
-    for row in rows:
-        if row.scene == scene:
-            found.setdefault(row.sampler, []).append(row)
-    return found
-
-
-def targets(rows: Sequence[Row], asked: float | None) -> dict[str, float]:
-    """Return the target error of each scene.
+def rank(rows: Sequence[Row], target: float | None, cost: float) -> Ranking:
+    """Rank the samplers on each scene.
 
     Parameters
     ----------
     rows
         The rows of a study.
-    asked
-        The target for all scenes; None: for each scene the smallest error that all samplers reach.
+    target
+        The target error for all scenes; None: for each scene the smallest error that all samplers reach.
+    cost
+        Extra cost per sample in nanoseconds that the times of the rows already include.
     """
-    found: dict[str, float] = {}
-    for scene in _scenes(rows):
-        least = [
-            min(row.mse.estimate for row in own if row.mse.estimate is not None)
-            for own in _by_sampler(rows, scene).values()
-            if any(row.mse.estimate is not None for row in own)
-        ]
-        if asked is not None:
-            found[scene] = asked
-        elif least and max(least) > 0.0:
-            found[scene] = max(least)
+    found = Ranking({}, [], [], [], [])
+    for scene in dict.fromkeys(row.scene for row in rows):
+        own = [row for row in rows if row.scene == scene]
+        curves: dict[str, list[Row]] = {}
+        for row in own:
+            curves.setdefault(row.sampler, []).append(row)
+        error = target if target is not None else _common_error(curves.values())
+        if error is not None:
+            found.target[scene] = error
+            needs = [_to_target(curve, error) for curve in curves.values()]
+            found.to_target.extend(needs)
+            found.flips.extend(_flips(needs, own[0].samples / own[0].count, cost))
+        found.front.extend(_front(own))
+        pairs = itertools.combinations(curves.values(), 2)
+        crossings = [crossing for one, other in pairs for crossing in _crossings(one, other)]
+        found.crossings.extend(sorted(crossings, key=lambda crossing: crossing.count))
     return found
 
 
-def times_to_target(rows: Sequence[Row], target: Mapping[str, float]) -> list[ToTarget]:
-    """Return what each sampler needs to reach the target error of each scene."""
-    return [_to_target(own, target[scene]) for scene in target for own in _by_sampler(rows, scene).values()]
+def _common_error(curves: Iterable[Sequence[Row]]) -> float | None:
+    """Return the smallest error that all samplers reach; None if it is 0 or there is none."""
+    errors = [[row.mse.estimate for row in curve if row.mse.estimate is not None] for curve in curves]
+    return max((min(each) for each in errors if each), default=0.0) or None
 
 
 def _to_target(rows: Sequence[Row], target: float) -> ToTarget:
@@ -72,7 +77,7 @@ def _to_target(rows: Sequence[Row], target: float) -> ToTarget:
             return ToTarget(*pair, target, count, seconds, "")
         if mse is not None:
             previous = row
-    return ToTarget(*pair, target, None, None, f"does not get there with {rows[-1].count} samples")
+    return ToTarget(*pair, target, None, None, f"does not reach the target with {rows[-1].count} samples")
 
 
 def _share(above: float, below: float, target: float) -> float:
@@ -89,26 +94,25 @@ def _between(first: float, second: float, share: float) -> float:
     return first * math.pow(second / first, share)
 
 
-def front(rows: Sequence[Row]) -> list[Choice]:
+def _front(rows: Sequence[Row]) -> list[Choice]:
     """Return the best choices for rising budgets of time: the rows that no other beats in both time and error.
 
     A slower row becomes the choice if its error is smaller by more than the intervals leave open. It replaces the
     choice before it if the quartiles of their times overlap. So noise alone does not make samplers alternate.
     """
-    choices: list[Choice] = []
-    for scene in _scenes(rows):
-        timed = [row for row in rows if row.scene == scene and row.time is not None and row.mse.estimate is not None]
-        best: list[Row] = []
-        for row in sorted(timed, key=lambda row: (row.time or 0.0, row.mse.estimate or 0.0)):
-            if best and not _is_clearly_better(row, best[-1]):
-                continue
-            while best and _is_as_fast(row, best[-1]):
-                best.pop()
-            best.append(row)
-        for index, row in enumerate(best):
-            until = best[index + 1].time if index + 1 < len(best) else None
-            choices.append(Choice(scene, row.sampler, row.count, row.mse.estimate or 0.0, row.time or 0.0, until))
-    return choices
+    timed = [row for row in rows if row.time is not None and row.mse.estimate is not None]
+    best: list[Row] = []
+    for row in sorted(timed, key=lambda row: (row.time or 0.0, row.mse.estimate or 0.0)):
+        if best and not _is_clearly_better(row, best[-1]):
+            continue
+        while best and _is_as_fast(row, best[-1]):
+            best.pop()
+        best.append(row)
+    ends = [*(row.time for row in best[1:]), None]
+    return [
+        Choice(row.scene, row.sampler, row.count, row.mse.estimate or 0.0, row.time or 0.0, until)
+        for row, until in zip(best, ends, strict=False)
+    ]
 
 
 def _is_clearly_better(row: Row, other: Row) -> bool:
@@ -127,8 +131,7 @@ def _is_as_fast(row: Row, other: Row) -> bool:
     return spread.lower + added[0] <= earlier.upper + added[1]
 
 
-@dataclass(frozen=True)
-class _Need:
+class _Need(NamedTuple):
     """The samples of all pixels, and the seconds without the extra cost, that a sampler needs for the target."""
 
     sampler: str
@@ -140,53 +143,41 @@ class _Need:
         return self.seconds + cost * 1e-9 * self.samples
 
 
-def flips(rows: Sequence[Row], to_target: Sequence[ToTarget], cost: float) -> list[Flip]:
-    """Return the costs per sample at which two samplers change places, scene by scene, costs rising.
+def _flips(to_target: Sequence[ToTarget], pixels: float, cost: float) -> list[Flip]:
+    """Return the costs per sample at which two samplers change places, costs rising.
 
     Parameters
     ----------
-    rows, to_target
-        The rows of a study, and what the samplers need for the target error.
+    to_target
+        What each sampler needs on the scene.
+    pixels
+        Number of pixels of the scene that are sampled.
     cost
-        Extra cost per sample in nanoseconds that their times already include.
+        Extra cost per sample in nanoseconds that the seconds already include.
     """
-    found: list[Flip] = []
-    for scene in _scenes(rows):
-        per_count = next(row.samples / row.count for row in rows if row.scene == scene)
-        reached = [need for need in to_target if need.scene == scene and need.count and need.seconds]
-        needs = []
-        for each in reached:
-            count, seconds = each.count or 0.0, each.seconds or 0.0
-            needs.append(_Need(each.sampler, count * per_count, seconds - cost * 1e-9 * count * per_count))
-        own = []
-        for one, other in itertools.combinations(needs, 2):
-            if one.samples == other.samples:
-                continue
-            # A higher cost per sample favours the one with fewer samples.
-            fewer, more = sorted((one, other), key=lambda need: need.samples)
-            at = (fewer.seconds - more.seconds) / (more.samples - fewer.samples) * 1e9
-            if at > 0.0:
-                fastest = min(need.at(at) for need in needs)
-                leads = fewer.at(at) <= fastest * (1.0 + 1e-9)
-                own.append(Flip(scene, reached[0].target, at, more.sampler, fewer.sampler, leads))
-        found += sorted(own, key=lambda flip: flip.cost)
-    return found
+    needs = [
+        _Need(need.sampler, need.count * pixels, need.seconds - cost * 1e-9 * need.count * pixels)
+        for need in to_target
+        if need.count and need.seconds
+    ]
+    flips = []
+    for pair in itertools.combinations(needs, 2):
+        # A higher cost per sample favours the one with fewer samples.
+        fewer, more = sorted(pair, key=lambda need: need.samples)
+        if fewer.samples == more.samples:
+            continue
+        at = (fewer.seconds - more.seconds) / (more.samples - fewer.samples) * 1e9
+        if at > 0.0:
+            leads = fewer.at(at) <= min(need.at(at) for need in needs) * (1.0 + 1e-9)
+            flips.append(Flip(to_target[0].scene, to_target[0].target, at, more.sampler, fewer.sampler, leads))
+    return sorted(flips, key=lambda flip: flip.cost)
 
 
-def crossings(rows: Sequence[Row]) -> list[Crossing]:
-    """Return where the error curves of two samplers cross, as far as their intervals can tell.
+def _crossings(one: Sequence[Row], other: Sequence[Row]) -> list[Crossing]:
+    """Return where the error curves of two samplers cross, as far as their intervals can tell, counts rising.
 
-    All pairs of samplers on each scene are compared at the counts that both have; scene by scene, counts rising.
+    They are compared at the counts that both have.
     """
-    found = []
-    for scene in _scenes(rows):
-        pairs = itertools.combinations(_by_sampler(rows, scene).values(), 2)
-        own = [crossing for one, other in pairs for crossing in _crossings_of_pair(one, other)]
-        found += sorted(own, key=lambda crossing: crossing.count)
-    return found
-
-
-def _crossings_of_pair(one: Sequence[Row], other: Sequence[Row]) -> list[Crossing]:
     by_count = {row.count: row for row in other}
     common = [(row, by_count[row.count]) for row in one if row.count in by_count]
     common = [pair for pair in common if all(row.mse.estimate for row in pair)]

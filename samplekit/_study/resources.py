@@ -65,3 +65,7 @@ class Resources:
                 self._made[key] = make()
                 self._seconds[key] = time.process_time() - cpu, time.perf_counter() - wall
             return cast("T", self._made[key])
+
+
+OF_PROCESS = Resources()
+"""The resources of a worker process, for all of its threads."""

@@ -5,12 +5,8 @@ Seconds are those of one trial: of one estimate of the unit square, or of one im
 
 from __future__ import annotations
 
-import json
 from dataclasses import asdict, dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
-
-from samplekit._errors import UsageError
-from samplekit._study.plain_data import from_plain
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -399,31 +395,3 @@ class Results:
         from samplekit.plots import StudyDisplay
 
         return StudyDisplay(self, scene, against).plot(ax)
-
-
-def to_json(results: Results) -> str:
-    """Return the text of ``results.json``: one JSON object without NaN and infinity."""
-    return json.dumps(results.as_json(), allow_nan=False, indent=1)
-
-
-def from_json(text: str) -> Results:
-    """Read the results that :func:`to_json` wrote.
-
-    Raises
-    ------
-    UsageError
-        The text is not such an object, is damaged, or is of another version.
-    """
-    try:
-        plain = json.loads(text)
-        found = plain.pop("schema", None)
-    except (ValueError, AttributeError):
-        raise UsageError("these are no results of samplekit compare: expected one JSON object") from None
-    if found != SCHEMA:
-        raise UsageError(f"these results are of version {found!r}, this samplekit reads {SCHEMA!r}: run the study anew")
-    plain.pop("level", None)
-    plain["seed"] = int(plain["seed"])
-    try:
-        return from_plain(Results, plain)
-    except (KeyError, TypeError, ValueError) as error:
-        raise UsageError(f"these results are damaged: {type(error).__name__}: {error}") from None

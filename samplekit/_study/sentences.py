@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+import itertools
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
     from samplekit._study.results import Choice, Fit, Flip, Results, ToTarget
 
-_MOST_SPANS = 2
+_MOST_RANGES = 2
 _UNITS = ((1.0, "s"), (1e-3, "ms"), (1e-6, "µs"), (1e-9, "ns"))
 
 
@@ -105,32 +106,24 @@ def _sampler_text(need: ToTarget, needs: Sequence[ToTarget], choices: Sequence[C
             factor = need.seconds / fastest
             text += ", the least" if factor == 1.0 else f", {factor:.3g} times the least"
     if fit is not None and fit.slope.high is not None and fit.slope.high >= 0.0:
-        text += "; how fast its mse falls, these counts do not tell"
+        text += "; these counts do not tell how fast its mse falls"
     elif fit is not None:
         text += f"; its mse falls as N^{fit.slope.estimate:.2f}"
         if fit.theory is not None:
             text += f" (theory: N^{fit.theory:g})"
-    spans = _join_ranges(choices, need.sampler)
-    if len(spans) > _MOST_SPANS:
-        text += f"; the best choice for budgets in {len(spans)} ranges from {seconds_in_words(spans[0].seconds)} on"
-    elif spans:
-        written = [
-            f"from {seconds_in_words(span.seconds)}"
-            + (" on" if span.until is None else f" to {seconds_in_words(span.until)}")
-            for span in spans
-        ]
+    own = [run for run in runs(choices) if run[0].sampler == need.sampler]
+    if len(own) > _MOST_RANGES:
+        text += f"; the best choice for budgets in {len(own)} ranges from {seconds_in_words(own[0][0].seconds)} on"
+    elif own:
+        written = []
+        for run in own:
+            until = run[-1].until
+            end = " on" if until is None else f" to {seconds_in_words(until)}"
+            written.append(f"from {seconds_in_words(run[0].seconds)}{end}")
         text += f"; the best choice for budgets {', '.join(written)}"
     return text + "."
 
 
-def _join_ranges(choices: Sequence[Choice], sampler: str) -> list[Choice]:
-    """Return the choices of a sampler; choices whose ranges follow each other are joined into one."""
-    joined: list[Choice] = []
-    for previous, choice in zip([None, *choices], choices, strict=False):
-        if choice.sampler != sampler:
-            continue
-        if previous is not None and previous.sampler == sampler and joined:
-            joined[-1] = replace(joined[-1], until=choice.until)
-        else:
-            joined.append(choice)
-    return joined
+def runs(choices: Iterable[Choice]) -> list[list[Choice]]:
+    """Group choices of the same sampler that follow each other: their ranges of budgets join."""
+    return [list(run) for _, run in itertools.groupby(choices, key=lambda choice: choice.sampler)]

@@ -16,20 +16,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from samplekit._errors import SamplekitError, UsageError
-from samplekit._study.trials import COLUMNS
+from samplekit._study.trials import COLUMNS, Array
 from samplekit.files import shown
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
     from pathlib import Path
 
-    from numpy.typing import NDArray
-
     from samplekit._study.combinations import Combination
     from samplekit._study.jobs import Job
     from samplekit._study.timing import Lap
-
-    Array = NDArray[np.float64]
 
 FORMAT = 2
 NAME = "study.sqlite"
@@ -53,30 +49,35 @@ def _key(combination: Combination) -> dict[str, Any]:
 
 
 class Store:
-    """The file ``study.sqlite`` of a study.
+    """The file ``study.sqlite`` of a study, which belongs to this process until :meth:`close`.
 
     Parameters
     ----------
     folder
         Where the file is; None: in memory, and gone when closed.
+    request, versions
+        The request of the study, and the versions of what computes it: a new file gets them, an old one must have them.
+    machine
+        The kind of machine on which times are measured. Times in the file from other kinds are left alone.
 
     Raises
     ------
     UsageError
-        Another study is using the file, or it is damaged.
+        Another study is using the file, the file belongs to another study or has another format, or it is damaged.
     SamplekitError
         The file cannot be written.
     """
 
-    def __init__(self, folder: Path | None) -> None:
-        self._path = None if folder is None else folder / NAME
+    def __init__(self, folder: Path | None, request: dict[str, Any], versions: dict[str, str], machine: str) -> None:
+        self._machine = machine
+        self._shown = "the study" if folder is None else shown(folder / NAME)
         with self._one_line_errors():
-            self._database = sqlite3.connect(self._path or ":memory:", timeout=0.0, isolation_level=None)
-            self._database.execute("PRAGMA locking_mode = EXCLUSIVE")
-            self._database.execute("PRAGMA journal_mode = WAL")
-            self._database.execute("PRAGMA synchronous = NORMAL")
-            self._database.execute("BEGIN EXCLUSIVE")
-            self._database.execute("COMMIT")
+            self._database = sqlite3.connect(folder / NAME if folder else ":memory:", timeout=0.0, isolation_level=None)
+        try:
+            self._begin(request, versions)
+        except BaseException:
+            self.close()
+            raise
 
     def close(self) -> None:
         """Close the file and release its lock."""
@@ -84,56 +85,51 @@ class Store:
         with contextlib.suppress(sqlite3.Error):
             self._database.close()
 
-    def begin(self, request: dict[str, Any], versions: dict[str, str]) -> None:
-        """Write down the request and the versions, or check that the file has the same ones.
-
-        Raises
-        ------
-        UsageError
-            The file has another format, or belongs to another study.
-        """
-        request_text = json.dumps(request)
+    def _begin(self, request: dict[str, Any], versions: dict[str, str]) -> None:
+        """Lock the file; write the request and the versions, or check that the file has the same ones."""
         with self._one_line_errors():
+            self._database.execute("PRAGMA locking_mode = EXCLUSIVE")
+            self._database.execute("PRAGMA journal_mode = WAL")
+            self._database.execute("PRAGMA synchronous = NORMAL")
+            self._database.execute("BEGIN EXCLUSIVE")
+            self._database.execute("COMMIT")
             tables = {name for (name,) in self._database.execute("SELECT name FROM sqlite_master")}
-            if not tables:
-                with self._transaction():
-                    for table in _TABLES.split(";"):
-                        self._database.execute(table)
-                    self._insert("INSERT INTO study", (FORMAT, request_text, json.dumps(versions)))
-                return
             found = self._database.execute("SELECT format FROM study").fetchone() if "study" in tables else None
-            if found is None or found[0] != FORMAT:
-                raise UsageError(
-                    f"{self._shown} is of version {found[0] if found else 'unknown'}, this samplekit continues version"
-                    f" {FORMAT}: finish it with the samplekit that began it, or choose another folder"
-                )
-            ((_, kept_request, kept_versions),) = self._select("study")
-        self._compare(json.loads(kept_request), json.loads(request_text), json.loads(kept_versions), versions)
+        if not tables:
+            with self._transaction():
+                for table in _TABLES.split(";"):
+                    self._database.execute(table)
+                self._insert("INSERT INTO study", (FORMAT, json.dumps(request), json.dumps(versions)))
+            return
+        if found is None or found[0] != FORMAT:
+            raise UsageError(
+                f"{self._shown} is of version {found[0] if found else 'unknown'}, this samplekit continues version"
+                f" {FORMAT}: finish it with the samplekit that began it, or choose another folder"
+            )
+        self._check_same(request, versions)
 
-    def _compare(
-        self,
-        kept: dict[str, Any],
-        asked: dict[str, Any],
-        kept_versions: dict[str, str],
-        versions: dict[str, str],
-    ) -> None:
-        name = next((name for name in asked if kept.get(name) != asked[name]), None)
-        if name is not None:
-            raise UsageError(
-                f"{self._shown} is of another study: {name} {kept.get(name)}, not {asked[name]}:"
-                " ask for the same, or choose another folder"
-            )
-        all_names = kept_versions | versions
-        name = next((name for name in all_names if kept_versions.get(name) != versions.get(name)), None)
-        if name is not None:
-            raise UsageError(
-                f"{self._shown} was begun with {name} {kept_versions.get(name, '(none)')}, this is"
-                f" {versions.get(name, '(none)')}: numbers may differ: install that version, or choose another folder"
-            )
+    def _check_same(self, request: dict[str, Any], versions: dict[str, str]) -> None:
+        ((_, kept_request, kept_versions),) = self._select("study")
+        # JSON makes lists of tuples.
+        kept, asked = json.loads(kept_request), json.loads(json.dumps(request))
+        for name in asked:
+            if kept.get(name) != asked[name]:
+                raise UsageError(
+                    f"{self._shown} is of another study: {name} {kept.get(name)}, not {asked[name]}:"
+                    " ask for the same, or choose another folder"
+                )
+        began_with = json.loads(kept_versions)
+        for name in began_with | versions:
+            if began_with.get(name) != versions.get(name):
+                raise UsageError(
+                    f"{self._shown} was begun with {name} {began_with.get(name, '(none)')}, this is"
+                    f" {versions.get(name, '(none)')}: numbers may differ: install that version, or choose another"
+                    " folder"
+                )
 
     def add(self, job: Job, sums: Array) -> None:
         """Keep the sums float64[counts, batches, COLUMNS] of a job."""
-        with self._one_line_errors(), self._transaction():
+        with self._transaction():
             for count, batches in zip(job.counts, sums, strict=True):
                 row = job.scene, job.sampler, count, job.first, job.last, np.ascontiguousarray(batches).tobytes()
                 self._insert("INSERT OR REPLACE INTO sums", row)
@@ -147,26 +143,26 @@ class Store:
         batches = b"".join(row[5] for row in self._select("sums", "first", **_key(combination)))
         return np.frombuffer(batches, np.float64).reshape(-1, COLUMNS)
 
-    def add_laps(self, machine: str, laps: Sequence[tuple[Combination, Lap]]) -> None:
-        """Keep the seconds of laps on a kind of machine."""
-        with self._one_line_errors(), self._transaction():
+    def add_laps(self, laps: Sequence[tuple[Combination, Lap]]) -> None:
+        """Keep the seconds of laps."""
+        with self._transaction():
             for combination, lap in laps:
-                self._insert("INSERT INTO laps", (machine, *_key(combination).values(), *map(float, lap)))
+                self._insert("INSERT INTO laps", (self._machine, *_key(combination).values(), *map(float, lap)))
 
-    def laps(self, machine: str, combination: Combination) -> Array:
-        """Return the laps float64[L, 4] of a combination on a kind of machine."""
-        rows = self._select("laps", machine=machine, **_key(combination))
+    def laps(self, combination: Combination) -> Array:
+        """Return the laps float64[L, 4] of a combination on this kind of machine."""
+        rows = self._select("laps", machine=self._machine, **_key(combination))
         return np.array([row[4:] for row in rows], np.float64).reshape(-1, 4)
 
-    def add_setup(self, machine: str, combination: Combination, cpu: float, wall: float) -> None:
+    def add_setup(self, combination: Combination, cpu: float, wall: float) -> None:
         """Keep the seconds before the first sample, unless the store has them from an earlier run."""
-        with self._one_line_errors(), self._transaction():
-            row = (machine, *_key(combination).values(), float(cpu), float(wall))
+        with self._transaction():
+            row = (self._machine, *_key(combination).values(), float(cpu), float(wall))
             self._insert("INSERT OR IGNORE INTO setups", row)
 
-    def setup(self, machine: str, combination: Combination) -> tuple[float, float]:
+    def setup(self, combination: Combination) -> tuple[float, float]:
         """Return the seconds before the first sample, by processor and wall clock; 0 if they were not measured."""
-        rows = self._select("setups", machine=machine, **_key(combination))
+        rows = self._select("setups", machine=self._machine, **_key(combination))
         return rows[0][4:] if rows else (0.0, 0.0)
 
     def _insert(self, into: str, row: tuple[Any, ...]) -> None:
@@ -183,20 +179,17 @@ class Store:
                 raise sqlite3.DatabaseError("it is damaged: numbers in it are not those that were written")
         return [row[:-1] for row in rows]
 
-    @property
-    def _shown(self) -> str:
-        return "the study" if self._path is None else shown(self._path)
-
     @contextlib.contextmanager
     def _transaction(self) -> Iterator[None]:
-        self._database.execute("BEGIN")
-        try:
-            yield
-            self._database.execute("COMMIT")
-        except BaseException:
-            with contextlib.suppress(sqlite3.Error):
-                self._database.execute("ROLLBACK")
-            raise
+        with self._one_line_errors():
+            self._database.execute("BEGIN")
+            try:
+                yield
+                self._database.execute("COMMIT")
+            except BaseException:
+                with contextlib.suppress(sqlite3.Error):
+                    self._database.execute("ROLLBACK")
+                raise
 
     @contextlib.contextmanager
     def _one_line_errors(self) -> Iterator[None]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import threading
 import time
 from dataclasses import asdict, replace
 from typing import TYPE_CHECKING
@@ -11,14 +10,14 @@ from typing import TYPE_CHECKING
 from samplekit._errors import UsageError
 from samplekit._memory import check_memory
 from samplekit._provenance import versions
-from samplekit._study import ranking
 from samplekit._study.analysis import Analysis
-from samplekit._study.cluster import Cluster
+from samplekit._study.cluster import connect, count_threads, on_cluster
 from samplekit._study.combinations import list_combinations
 from samplekit._study.folder import check_folder
-from samplekit._study.jobs import gaps, split
+from samplekit._study.jobs import split
 from samplekit._study.machine import describe_machine, kind_of
 from samplekit._study.processes import in_processes
+from samplekit._study.ranking import rank
 from samplekit._study.results import Results
 from samplekit._study.sentences import statements
 from samplekit._study.store import Store
@@ -65,40 +64,32 @@ class Study:
         request: Request,
         options: ExecutionOptions,
         resources: Resources,
-        folder: Path | None = None,
+        folder: Path | None,
         *,
-        resume: bool = False,
+        resume: bool,
     ) -> None:
         if resume and folder is None:
             raise UsageError("--resume needs --output, the folder of the study")
         self._request, self._options, self._resources = request, options, resources
         self._combinations, self._left_out = list_combinations(request, resources)
         self._machine, self._versions = describe_machine(), versions()
-        self._machine_kind = kind_of(self._machine)
         if folder is not None:
             check_folder(folder, resume=resume)
-        self._store = Store(folder)
-        self._cluster: Cluster | None = None
-        try:
-            self._store.begin(asdict(request), self._versions)
-            self._cluster = Cluster(options.dask) if options.dask is not None else None
-        except BaseException:
-            self.close()
-            raise
+        with contextlib.ExitStack() as stack:
+            store = Store(folder, asdict(request), self._versions, kind_of(self._machine))
+            self._store = stack.enter_context(contextlib.closing(store))
+            self._cluster = None
+            if options.dask is not None:
+                self._cluster = stack.enter_context(contextlib.closing(connect(options.dask)))
+            self._open = stack.pop_all()
 
     def __enter__(self) -> Study:
         return self
 
     def __exit__(self, *exception: object) -> None:
-        self.close()
+        self._open.close()
 
-    def close(self) -> None:
-        """Close the store and the connection to the cluster."""
-        self._store.close()
-        if self._cluster is not None:
-            self._cluster.close()
-
-    def run(self, progress: Progress = lambda _, __, ___: None) -> None:
+    def run(self, progress: Progress) -> None:
         """Do what is left to do. After an interrupt the store has everything that was finished.
 
         Parameters
@@ -111,63 +102,50 @@ class Study:
         SamplekitError
             A plugin failed, or the store cannot be written.
         """
-        self._set_up(progress)
+        for each in self._combinations:
+            cpu, wall = set_up(each, self._resources, lambda done, total: progress("preparing point sets", done, total))
+            if self._options.times:
+                self._store.add_setup(each, cpu, wall)
         timings = [TimingRun(combination, self._request, self._resources) for combination in self._combinations]
         seconds = {}
         for number, timing in enumerate(timings):
             seconds[timing.combination] = timing.warm_up(LAP_SECONDS if self._options.times else ESTIMATE_SECONDS)
             progress("warming up", number + 1, len(timings))
+
+        def time_laps(seconds: float) -> None:
+            run_laps(timings, seconds, self._store, lambda done, total: progress("measuring run times", done, total))
+
         if self._options.times:
-            self._run_laps(timings, 0.0, progress)
+            time_laps(0.0)
         began = time.perf_counter()
         self._compute_errors(seconds, progress)
         if self._options.times:
             budget = self._options.budget
             if budget is None:
                 budget = max(_BUDGET_SHARE * (time.perf_counter() - began), _SMALLEST_BUDGET)
-            self._run_laps(timings, budget, progress)
-
-    def _set_up(self, progress: Progress) -> None:
-        for each in self._combinations:
-            cpu, wall = set_up(each, self._resources, lambda done, total: progress("preparing point sets", done, total))
-            if self._options.times:
-                self._store.add_setup(self._machine_kind, each, cpu, wall)
-
-    def _run_laps(self, timings: list[TimingRun], seconds: float, progress: Progress) -> None:
-        run_laps(
-            timings,
-            seconds,
-            lambda combination: self._store.laps(self._machine_kind, combination)[:, [0, 2]].sum(axis=1),
-            lambda laps: self._store.add_laps(self._machine_kind, laps),
-            lambda done, total: progress("measuring run times", done, total),
-        )
+            time_laps(budget)
 
     def _compute_errors(self, seconds: dict[Combination, float], progress: Progress) -> None:
         """Carry out the jobs that are left; ``seconds`` are those of a trial."""
         workers = self._options.processes
         if self._cluster is not None:
-            workers = self._cluster.threads
+            workers = count_threads(self._cluster)
         elif workers == 1:
             workers = check_threads(self._options.threads)
-
-        def missing(combination: Combination) -> list[tuple[int, int]]:
-            return gaps(self._store.ranges(combination), combination.trials)
-
-        jobs = split(self._request, self._combinations, missing, seconds, workers)
+        jobs = split(self._request, self._combinations, self._store.ranges, seconds, workers)
         if self._cluster is None and jobs:
             needed = workers * max(job.memory for job in jobs)
             check_memory(needed, f"images on {workers} threads or processes", ": ask for fewer with --threads")
         total = sum(job.samples for job in jobs)
-        done, lock = 0, threading.Lock()
+        done = 0
 
         def tick(samples: int) -> None:
             nonlocal done
-            with lock:
-                done += samples
-                progress("computing errors", min(done, total), total)
+            done += samples
+            progress("computing errors", min(done, total), total)
 
         if self._cluster is not None:
-            found = self._cluster.run(jobs, tick)
+            found = on_cluster(self._cluster, jobs, tick)
         elif self._options.processes > 1:
             found = in_processes(jobs, workers, tick)
         else:
@@ -180,18 +158,8 @@ class Study:
     def results(self) -> Results:
         """Return the results of everything that is done, also after an interrupt."""
         request, options = self._request, self._options
-        analysis = Analysis(
-            request,
-            self._combinations,
-            self._store,
-            self._resources,
-            self._machine_kind,
-            options.cost,
-            options.fitted,
-        )
+        analysis = Analysis(request, options, self._combinations, self._store, self._resources)
         rows = analysis.rows()
-        target = ranking.targets(rows, options.target)
-        to_target = ranking.times_to_target(rows, target)
         results = Results(
             command=request.command(*options.command_options()),
             versions=self._versions,
@@ -204,16 +172,12 @@ class Study:
             seed=request.seed,
             workers=self._workers(),
             cost=options.cost,
-            target=target,
             complete=analysis.complete,
             rows=rows,
             fits=analysis.fits(rows),
-            to_target=to_target,
-            front=ranking.front(rows),
-            flips=ranking.flips(rows, to_target, options.cost),
             left_out=[*self._left_out, *analysis.left_out],
             notes=self._notes(),
-            crossings=ranking.crossings(rows),
+            **rank(rows, options.target, options.cost)._asdict(),
         )
         return replace(results, sentences=[statement.sentence for statement in statements(results)])
 

@@ -18,13 +18,12 @@ from samplekit._integrate.loop import Clock, integrate, unit_square
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import NDArray
-
     from samplekit._study.combinations import Combination
     from samplekit._study.request import Request
     from samplekit._study.resources import Resources
+    from samplekit._study.store import Store
+    from samplekit._study.trials import Array
 
-    Array = NDArray[np.float64]
     Lap = tuple[float, float, float, float]
 
 LAP_SECONDS = 0.002
@@ -40,9 +39,7 @@ _MOST_PIXELS = 2**18
 _PLACES = 2**12
 
 
-def set_up(
-    combination: Combination, resources: Resources, progress: Callable[[int, int], None] = lambda _, __: None
-) -> tuple[float, float]:
+def set_up(combination: Combination, resources: Resources, progress: Callable[[int, int], None]) -> tuple[float, float]:
     """Make everything that the samples of a combination need: kernels, tables, banks of sets.
 
     What several combinations share is made for the first of them, and its seconds count for each.
@@ -112,7 +109,7 @@ class TimingRun:
         # Shared sets may have been dropped to make room for another count; loading them again is not part of a lap.
         self._quick_to_prepare = time.perf_counter() - began < _QUICK
 
-    def warm_up(self, lap_seconds: float = LAP_SECONDS) -> float:
+    def warm_up(self, lap_seconds: float) -> float:
         """Run laps until one lasts ``lap_seconds``, and fix the number of pixels per lap. These laps are not counted.
 
         Returns
@@ -167,8 +164,6 @@ def _choose_pixels(combination: Combination, request: Request, resources: Resour
 
 def _is_known(totals: Array) -> bool:
     """Whether the laps float64[L] tell their median well enough."""
-    if totals.size < _FEWEST:
-        return False
     lower, median, upper = np.percentile(totals, [25, 50, 75])
     # The interval of a median from the quartiles (McGill, Tukey, Larsen 1978, "Variations of box plots").
     return totals.size >= _MOST or bool(1.57 * (upper - lower) / np.sqrt(totals.size) <= _NARROW * median)
@@ -177,9 +172,8 @@ def _is_known(totals: Array) -> bool:
 def run_laps(
     timings: list[TimingRun],
     seconds: float,
-    known: Callable[[Combination], Array],
-    keep: Callable[[list[tuple[Combination, Lap]]], None],
-    progress: Callable[[int, int], None] = lambda _, __: None,
+    store: Store,
+    progress: Callable[[int, int], None],
 ) -> None:
     """Run laps in turn until all medians are known well or the time is up; each combination gets at least five laps.
 
@@ -189,27 +183,25 @@ def run_laps(
         The combinations, warmed up.
     seconds
         The time that is available.
-    known
-        Returns the total seconds float64[L] of the earlier laps of a combination.
-    keep
-        Called with the laps of each round.
+    store
+        It has the earlier laps, and keeps those of each round.
     progress
         Called with hundredths of a second spent and available.
     """
     began = time.perf_counter()
-    totals = {timing.combination: list(known(timing.combination)) for timing in timings}
+    # By the processor's clock, points and scene together.
+    totals = {timing: list(store.laps(timing.combination)[:, [0, 2]].sum(axis=1)) for timing in timings}
     while True:
         over = time.perf_counter() - began >= seconds
         wanted = [
             timing
-            for timing in timings
-            if len(totals[timing.combination]) < _FEWEST
-            or not (over or _is_known(np.array(totals[timing.combination])))
+            for timing, known in totals.items()
+            if len(known) < _FEWEST or not (over or _is_known(np.array(known)))
         ]
         if not wanted:
             return
-        laps = [(timing.combination, timing.lap()) for timing in wanted]
-        for combination, lap in laps:
-            totals[combination].append(lap[0] + lap[2])
-        keep(laps)
+        laps = {timing: timing.lap() for timing in wanted}
+        for timing, lap in laps.items():
+            totals[timing].append(lap[0] + lap[2])
+        store.add_laps([(timing.combination, lap) for timing, lap in laps.items()])
         progress(int(100 * min(time.perf_counter() - began, seconds)), int(100 * seconds) + 1)

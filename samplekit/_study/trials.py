@@ -9,23 +9,23 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit._bases.realizations import Realizations, seed_word
 from samplekit._integrate.loop import integrate, unit_square
 from samplekit._study.blurred import blurred_mean_square
 from samplekit._study.request import UNIT_SQUARE
+from samplekit._study.resources import OF_PROCESS, Resources
 from samplekit.kernels import kernel
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from numpy.typing import NDArray
-
     from samplekit._study.jobs import Job
-    from samplekit._study.resources import Resources
 
-    Array = NDArray[np.float64]
     Tick = Callable[[int], None]
+
+Array = NDArray[np.float64]
 
 TRIALS, ERROR, SQUARE, PAIRS, PRODUCT, BLURRED, INVALID = range(7)
 """Columns of the sums of a batch.
@@ -48,13 +48,13 @@ def seed_of(seed: int, trial: int) -> int:
     return int(seed_word((seed + trial * _STEP) % 2**64)) if trial else seed
 
 
-def carry_out(job: Job, resources: Resources, tick: Tick = lambda _: None) -> Array:
+def carry_out(job: Job, resources: Resources = OF_PROCESS, tick: Tick = lambda _: None) -> Array:
     """Carry out a job.
 
     Parameters
     ----------
     job, resources
-        The job, and the objects that it names.
+        The job, and the objects that it names; a worker process uses its own.
     tick
         Called now and then with the number of samples done since the last call.
 
@@ -139,27 +139,20 @@ def _sum_image(error: Array, size: tuple[int, int]) -> Array:
     """Return the columns of one image with the error float64[P]; those of its pair are 0."""
     columns = np.zeros(COLUMNS)
     valid = np.isfinite(error * error)
-    if not valid.any():
-        columns[INVALID] = error.size
-        return columns
-    shape = size[1], size[0]
-    shown = error if valid.all() else np.where(valid, error, 0.0)
-    blurred = blurred_mean_square(shown.reshape(shape), valid.reshape(shape))
-    error = error if valid.all() else error[valid]
-    columns[[TRIALS, ERROR, SQUARE, BLURRED]] = 1.0, _mean(error), _mean(error * error), blurred
-    columns[INVALID] = valid.size - error.size
+    finite = error if valid.all() else error[valid]
+    columns[INVALID] = error.size - finite.size
+    if finite.size:
+        shape = size[1], size[0]
+        blurred = blurred_mean_square(error.reshape(shape), valid.reshape(shape))
+        columns[[TRIALS, ERROR, SQUARE, BLURRED]] = 1.0, finite.mean(), (finite * finite).mean(), blurred
     return columns
 
 
 def _sum_pair(error: Array, other: Array) -> tuple[float, float]:
     """Return 1 and the mean product of the errors of two images; 0 and 0 if no pixel is finite in both."""
     products = error * other
-    mean = _mean(products)
+    mean = products.mean()
     if not np.isfinite(mean):
         products = products[np.isfinite(products)]
-        mean = _mean(products)
-    return float(products.size > 0), mean
-
-
-def _mean(values: Array) -> float:
-    return float(values.mean()) if values.size else 0.0
+        mean = products.mean() if products.size else 0.0
+    return float(products.size > 0), float(mean)

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from samplekit._report import wording
-from samplekit._report.page import write_report
+from samplekit._report.page import page as page_of
 from samplekit._study.results import Interval
 from samplekit.files._images.exr import read_parts
 
@@ -29,6 +29,12 @@ def browser():
         browser = started.chromium.launch(executable_path=EXECUTABLE)
         yield browser
         browser.close()
+
+
+def write_report(results, folder):
+    path = folder / "report.html"
+    path.write_text(page_of(results, folder), encoding="utf-8")
+    return path
 
 
 class Opened:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from skimage.color import deltaE_ciede2000, rgb2lab
 
-STYLE = (files("samplekit._report") / "assets" / "style" / "base.css").read_text()
+STYLE = (files("samplekit._report") / "assets" / "style" / "01_base.css").read_text()
 # Machado, Oliveira and Fernandes 2009, table of full severity, for linear RGB.
 SEEN = {
     "normal": np.eye(3),

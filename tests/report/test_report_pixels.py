@@ -60,12 +60,12 @@ def test_the_reference_keeps_all_bits_of_float32():
 
 def test_each_image_is_there_with_the_mean_square_of_its_file(study, tmp_path):
     results = study(size=(20, 12), folder=tmp_path)
-    images = packed(results, tmp_path)
-    assert [one["scene"] for one in images.scenes] == results.scenes
-    items = [item for one in images.scenes for item in one["items"]]
+    scenes, blobs = packed(results, tmp_path)
+    assert [one["scene"] for one in scenes] == results.scenes
+    items = [item for one in scenes for item in one["items"]]
     assert [item["row"] for item in items] == list(range(len(results.rows)))
     for item in items:
-        error = unpacked_error(images.blobs[item["pixels"]], item["step"])
+        error = unpacked_error(blobs[item["pixels"]], item["step"])
         assert np.mean(np.square(error)) == pytest.approx(item["mse"], rel=1e-3)
 
 
@@ -77,11 +77,11 @@ def test_past_the_budget_each_scene_keeps_the_window_with_the_largest_errors(stu
         write_group(
             [(tmp_path / row.pictures.exr, parts_writer({"reference": np.zeros((48, 64)), "error": error}, {}))]
         )
-    whole = packed(results, tmp_path)
-    assert not whole.scenes[0]["windowed"]
-    budget = sum(map(len, whole.blobs.values())) // 3
-    (scene,) = (images := packed(results, tmp_path, budget)).scenes
-    assert sum(map(len, images.blobs.values())) <= budget
+    (scene,), blobs = packed(results, tmp_path)
+    assert not scene["windowed"]
+    budget = sum(map(len, blobs.values())) // 3
+    (scene,), blobs = packed(results, tmp_path, budget)
+    assert sum(map(len, blobs.values())) <= budget
     assert scene["windowed"]
     left, top = scene["window"]
     assert left <= 10

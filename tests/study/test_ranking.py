@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from samplekit._study.ranking import crossings, flips, front, targets, times_to_target
+from samplekit._study.ranking import rank
 from samplekit._study.results import Interval, Row, Seconds, Spread, Times
 from samplekit._study.sentences import seconds_in_words, statements
 
@@ -28,37 +28,36 @@ GOOD = curve("good", 1.0, -1.5, 5e-9)
 
 
 def test_target_is_one_that_all_reach():
-    target = targets(CHEAP + GOOD, None)
-    assert target == {"disk": pytest.approx(1 / 256)}
-    assert targets(CHEAP + GOOD, 0.01) == {"disk": 0.01}
+    assert rank(CHEAP + GOOD, None, 0.0).target == {"disk": pytest.approx(1 / 256)}
+    assert rank(CHEAP + GOOD, 0.01, 0.0).target == {"disk": 0.01}
 
 
 def test_time_to_target_follows_the_law_between_rows():
-    cheap, good = times_to_target(CHEAP + GOOD, {"disk": 0.02})
+    cheap, good = rank(CHEAP + GOOD, 0.02, 0.0).to_target
     assert cheap.count == pytest.approx(50.0)
     assert cheap.seconds == pytest.approx(50e-9)
     assert good.count == pytest.approx(0.02 ** (-1 / 1.5))
-    missed, _ = times_to_target(CHEAP + GOOD, {"disk": 1e-3})
+    missed, _ = rank(CHEAP + GOOD, 1e-3, 0.0).to_target
     assert (missed.count, missed.seconds) == (None, None)
     assert "256" in missed.note
-    assert times_to_target(CHEAP, {"disk": 0.5})[0].count == 4.0
+    assert rank(CHEAP, 0.5, 0.0).to_target[0].count == 4.0
 
 
 def test_flip_is_where_the_times_are_equal():
     rows = CHEAP + GOOD
-    needs = times_to_target(rows, {"disk": 0.02})
-    (flip,) = flips(rows, needs, 0.0)
-    times = [need.seconds + flip.cost * 1e-9 * need.count for need in needs]
+    found = rank(rows, 0.02, 0.0)
+    (flip,) = found.flips
+    times = [need.seconds + flip.cost * 1e-9 * need.count for need in found.to_target]
     assert times[0] == pytest.approx(times[1])
     assert (flip.below, flip.above, flip.leads) == ("cheap", "good", True)
     # The same flip if a part of the cost is in the times already.
     dearer = [row(r.sampler, r.count, r.mse.estimate, r.time + 2e-9 * r.samples) for r in rows]
-    (again,) = flips(dearer, times_to_target(dearer, {"disk": 0.02}), 2.0)
+    (again,) = rank(dearer, 0.02, 2.0).flips
     assert again.cost == pytest.approx(flip.cost, rel=1e-6)
 
 
 def test_front_has_what_nothing_beats():
-    choices = front(CHEAP + GOOD)
+    choices = rank(CHEAP + GOOD, None, 0.0).front
     assert all(a.seconds < b.seconds and a.mse > b.mse for a, b in pairwise(choices))
     rows = {(r.time, r.mse.estimate): (r.sampler, r.count) for r in CHEAP + GOOD}
     unbeaten = {
@@ -72,7 +71,7 @@ def test_front_has_what_nothing_beats():
 
 def test_crossing_lies_where_the_laws_are_equal():
     flat, steep = curve("flat", 0.1, -1.0, 1e-9), curve("steep", 1.0, -1.5, 1e-9, (4, 16, 64, 256, 1024))
-    (crossing,) = crossings([*flat, row("flat", 1024, 0.1 / 1024, 1e-6), *steep])
+    (crossing,) = rank([*flat, row("flat", 1024, 0.1 / 1024, 1e-6), *steep], None, 0.0).crossings
     assert (crossing.fewer, crossing.more) == ("flat", "steep")
     assert crossing.count == pytest.approx(100.0)
     assert (crossing.last, crossing.first) == (64, 256)
@@ -80,21 +79,11 @@ def test_crossing_lies_where_the_laws_are_equal():
 
 def test_overlapping_intervals_tell_no_crossing():
     wide = [row("a", 4, 1.0, 1.0, 3.0), row("a", 16, 0.1, 1.0, 3.0), row("b", 4, 0.8, 1.0), row("b", 16, 0.11, 1.0)]
-    assert crossings(wide) == []
+    assert rank(wide, None, 0.0).crossings == []
 
 
 def test_sentences_name_the_numbers():
-    rows = CHEAP + GOOD
-    target = {"disk": 0.02}
-    needs = times_to_target(rows, target)
-    results = SimpleNamespace(
-        target=target,
-        to_target=needs,
-        front=front(rows),
-        flips=flips(rows, needs, 0.0),
-        fits=[],
-        crossings=crossings(rows),
-    )
+    results = SimpleNamespace(**rank(CHEAP + GOOD, 0.02, 0.0)._asdict(), fits=[])
     words = [statement.sentence for statement in statements(results)]
     assert words[0].startswith("disk: for an mse of 0.02, good needs the fewest samples (13.6)")
     assert "cheap the least time (50 ns)" in words[0]
@@ -116,6 +105,6 @@ def test_front_does_not_take_turns_by_noise():
     same_error = row("two", 1, 0.0999, 1.01)
     better = row("one", 4, 0.02, 2.0)
     as_fast = replace(row("two", 4, 0.01, 1.05), times=Times(clock, clock, clock, 0.0, 0.0, 9))
-    assert [choice.sampler for choice in front([one, same_error, better])] == ["one", "one"]
+    assert [choice.sampler for choice in rank([one, same_error, better], None, 0.0).front] == ["one", "one"]
     timed = replace(one, times=Times(clock, clock, clock, 0.0, 0.0, 9))
-    assert [(choice.sampler, choice.count) for choice in front([timed, as_fast])] == [("two", 4)]
+    assert [(choice.sampler, choice.count) for choice in rank([timed, as_fast], None, 0.0).front] == [("two", 4)]

@@ -3,13 +3,13 @@
 import json
 import math
 import sys
-from dataclasses import replace
+from dataclasses import asdict
 
 import pytest
 
 import samplekit
 from samplekit._errors import UsageError
-from samplekit._study.results import SCHEMA, from_json, to_json
+from samplekit._study.results import SCHEMA
 
 
 @pytest.fixture(scope="module")
@@ -18,34 +18,11 @@ def results():
     return samplekit.compare(["random", "hammersley", "jittered"], ["disk", "step:offset=0.5"], [4, 5, 16], **ask)
 
 
-def test_results_come_back_as_they_were(results):
-    text = to_json(results)
-    assert from_json(text) == results
-    plain = json.loads(text, parse_constant=pytest.fail)
+def test_results_are_plain_data_with_all_digits(results):
+    plain = json.loads(json.dumps(results.as_json(), allow_nan=False))
     assert (plain["schema"], plain["level"], plain["seed"]) == (SCHEMA, 0.95, str(2**64 - 1))
+    assert [row["mse"] for row in plain["rows"]] == [asdict(row.mse) for row in results.rows]
     assert any(row.mse.estimate == 0.0 for row in results.rows)
-
-
-def test_old_results_have_no_crossings(results):
-    plain = json.loads(to_json(results))
-    del plain["crossings"]
-    assert from_json(json.dumps(plain)) == replace(results, crossings=[])
-
-
-@pytest.mark.parametrize(
-    ("change", "message"),
-    [
-        ({"schema": "samplekit.study/0"}, "version 'samplekit.study/0'.*run the study anew"),
-        ({"trials": "many"}, "damaged"),
-        ({"surprise": 1}, "damaged"),
-        ({"rows": [{}]}, "damaged"),
-    ],
-)
-def test_other_versions_and_damage_are_refused(results, change, message):
-    with pytest.raises(UsageError, match=message):
-        from_json(json.dumps(json.loads(to_json(results)) | change))
-    with pytest.raises(UsageError, match="expected one JSON object"):
-        from_json("[1, 2")
 
 
 def test_values_beyond_float_have_no_estimate(plugins):
@@ -68,7 +45,7 @@ def test_values_beyond_float_have_no_estimate(plugins):
     (row,) = found.rows
     assert row.mse.estimate is None or math.isfinite(row.mse.estimate)
     assert not row.fitted
-    assert from_json(to_json(found)) == found
+    json.dumps(found.as_json(), allow_nan=False)
 
 
 def test_dask_that_is_not_installed(monkeypatch):

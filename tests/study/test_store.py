@@ -11,7 +11,7 @@ from samplekit._study.analysis import Analysis
 from samplekit._study.combinations import list_combinations
 from samplekit._study.folder import check_folder
 from samplekit._study.jobs import Job
-from samplekit._study.request import checked_request
+from samplekit._study.request import ExecutionOptions, checked_request
 from samplekit._study.resources import Resources
 from samplekit._study.store import NAME, Store
 from samplekit._study.trials import COLUMNS, carry_out
@@ -25,15 +25,9 @@ def opened(tmp_path):
     """Open stores in one folder, closed at the end."""
     stores = []
 
-    def open_store(request=REQUEST, versions=VERSIONS):
-        store = Store(tmp_path)
-        stores.append(store)
-        try:
-            store.begin(asdict(request), versions)
-        except UsageError:
-            store.close()
-            raise
-        return store
+    def open_store(request=REQUEST, versions=VERSIONS, machine="this one"):
+        stores.append(Store(tmp_path, asdict(request), versions, machine))
+        return stores[-1]
 
     yield open_store
     for store in stores:
@@ -53,10 +47,10 @@ def test_sums_come_back_in_the_order_of_their_trials(opened):
     assert again.sums(replace(combination, count=5)).shape == (0, COLUMNS)
 
 
-def test_two_at_once_are_refused(opened, tmp_path):
+def test_two_at_once_are_refused(opened):
     opened()
     with pytest.raises(UsageError, match="in use"):
-        Store(tmp_path)
+        opened()
 
 
 @pytest.mark.parametrize(
@@ -138,14 +132,17 @@ def test_full_disk_loses_nothing_done(opened):
 def test_times_of_another_kind_of_machine_do_not_count(opened):
     resources = Resources()
     (combination,), _ = list_combinations(REQUEST, resources)
-    store = opened()
-    store.add(Job("disk", "random", (4,), 0, 8, 1, (1, 1), 0), np.ones((1, 8, COLUMNS)))
-    store.add_laps("slow", [(combination, (9.0, 9.0, 9.0, 9.0))] * 5)
-    store.add_laps("fast", [(combination, (1.0, 2.0, 3.0, 4.0))] * 5)
-    (row,) = Analysis(REQUEST, [combination], store, resources, "fast", 10.0, None).rows()
+    slow = opened(machine="slow")
+    slow.add(Job("disk", "random", (4,), 0, 8, 1, (1, 1), 0), np.ones((1, 8, COLUMNS)))
+    slow.add_laps([(combination, (9.0, 9.0, 9.0, 9.0))] * 5)
+    slow.close()
+    fast = opened(machine="fast")
+    fast.add_laps([(combination, (1.0, 2.0, 3.0, 4.0))] * 5)
+    (row,) = Analysis(REQUEST, ExecutionOptions(cost=10.0), [combination], fast, resources).rows()
     assert (row.times.points.cpu.median, row.times.total.wall.upper, row.times.laps) == (1.0, 6.0, 5)
     assert row.time == pytest.approx(4.0 + 4 * 10e-9)
-    (row,) = Analysis(REQUEST, [combination], store, resources, "third", 0.0, None).rows()
+    fast.close()
+    (row,) = Analysis(REQUEST, ExecutionOptions(), [combination], opened(machine="third"), resources).rows()
     assert (row.times, row.time) == (None, None)
 
 

@@ -8,7 +8,7 @@ from samplekit._bases.realizations import Realizations
 from samplekit._integrate.loop import integrate, unit_square
 from samplekit._metrics import metrics
 from samplekit._study.combinations import list_combinations
-from samplekit._study.jobs import Job, batch_of, gaps, split
+from samplekit._study.jobs import Job, batch_of, missing_ranges, split
 from samplekit._study.request import checked_request
 from samplekit._study.resources import Resources
 from samplekit._study.trials import BLURRED, ERROR, INVALID, PAIRS, PRODUCT, SQUARE, TRIALS, carry_out, seed_of
@@ -98,20 +98,23 @@ def test_batches_are_few_and_even():
 
 
 def test_jobs_fill_the_gaps_and_no_more():
-    assert gaps([(4, 8), (10, 12)], 15) == [(0, 4), (8, 10), (12, 15)]
-    assert gaps([], 3) == [(0, 3)]
-    assert gaps([(0, 3)], 3) == []
+    assert missing_ranges([[(4, 8), (10, 12)]], 15, 2) == [(0, 4), (8, 10), (12, 15)]
+    assert missing_ranges([[]], 3, 1) == [(0, 3)]
+    assert missing_ranges([[(0, 3)]], 3, 1) == []
+    # The counts of one draw need the trials that any of them lacks.
+    assert missing_ranges([[(0, 8)], [(0, 2), (4, 8)], []], 8, 2) == [(0, 8)]
+    assert missing_ranges([[(0, 4), (6, 8)], [(0, 2), (4, 8)]], 8, 2) == [(2, 6)]
 
 
 def test_jobs_share_out_what_is_missing():
     request = checked_request(["disk"], ["random", "sobol"], [4, 8], 100, (1, 1), 0)
     combinations, _ = list_combinations(request, Resources())
     random = [combination for combination in combinations if combination.sampler == "random"]
-    jobs = split(request, random, lambda _: [(0, 30), (40, 100)], dict.fromkeys(random, 0.03), 2)
+    jobs = split(request, random, lambda _: [(30, 40)], dict.fromkeys(random, 0.03), 2)
     assert {job.counts for job in jobs} == {(4, 8)}
     trials = sorted((job.first, job.last) for job in jobs)
     assert sum(last - first for first, last in trials) == 90
-    assert gaps(trials, 100) == [(30, 40)]
+    assert missing_ranges([trials], 100, 1) == [(30, 40)]
     assert all(first % 2 == 0 for first, _ in trials)
     assert max(last - first for first, last in trials) <= 14
 
