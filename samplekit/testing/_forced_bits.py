@@ -41,28 +41,26 @@ class Extreme:
 
 
 def forced_extremes(subject: SamplerSubject) -> list[Extreme]:
-    """Make points with all random bits ones, and zeros.
+    """Make points with all random bits ones, and with all of them zeros.
 
-    A sampler that rejects may loop for ever when its bits are constant: then there are none, and a note says so.
+    A sampler that rejects points may loop for ever when its bits are constant: then the list is empty, and the subject
+    gets a note.
     """
     dims = subject.dims(2)
     counts = subject.nearest_counts(_COUNTS, dims)
-    other = OtherProcess(
-        f"{__name__}:answer",
-        subject.recipe,
-        dims,
-        counts,
-        seconds=_SECONDS,
-        environment={"NUMBA_DISABLE_JIT": "1"},
-    )
+    environment = {"NUMBA_DISABLE_JIT": "1"}
+    extremes: list[Extreme] = []
     try:
-        return [Extreme(*each) for each in other.one_result()]
+        process = OtherProcess(
+            f"{__name__}:answer", subject.recipe, dims, counts, seconds=_SECONDS, environment=environment
+        )
+        extremes = process.one_result()
     except NoResultError as error:
         subject.note(f"not judged with forced random bits: {error}")
-        return []
+    return extremes
 
 
-def answer(recipe: Recipe, dims: int, counts: list[int]) -> Iterator[list[tuple[str, int, Array]]]:
+def answer(recipe: Recipe, dims: int, counts: list[int]) -> Iterator[list[Extreme]]:
     """Make the points; this runs in the other process."""
     from samplekit.kernels import _hashing as hashing
 
@@ -85,10 +83,10 @@ def answer(recipe: Recipe, dims: int, counts: list[int]) -> Iterator[list[tuple[
             try:
                 sampler.fill(out, Realizations.of_trials(0, 2, 0), count, 0)
             except SamplekitError:
-                # Values outside [0, 1) are what is looked for; anything else would fail without force as well.
+                # Values outside [0, 1) are what the checks look for; any other error is seen without forced bits too.
                 if not np.isfinite(out).all():
                     continue
-            made.append((f" with random bits all {pattern}", count, out))
+            made.append(Extreme(f" with random bits all {pattern}", count, out))
     yield made
 
 

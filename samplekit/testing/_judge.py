@@ -1,4 +1,4 @@
-"""Judge sets of points: equal bit for bit, or by a promise; a fault becomes a failed check with its counter-example."""
+"""Judge sets of points: equality bit for bit, and promises. A fault becomes a failed check with a counter-example."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ import numpy as np
 from samplekit.testing._result import CheckFailed
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
     from samplekit._specs import Promise
     from samplekit.testing._subject import Array, SamplerSubject
 
@@ -40,6 +42,15 @@ def judge_equal(
         f" {int(np.count_nonzero(different.any(axis=(1, 2))))} of {len(expected)} sets differ",
         subject.example(expected, count, seed=seed, row=row, start=start, indices=(point,)),
     )
+
+
+def repeated(arrays: Iterable[Array]) -> Iterator[tuple[int, int]]:
+    """Yield for each array that equals an earlier one bit for bit: the index of the first such array, and its own."""
+    seen: dict[bytes, int] = {}
+    for later, array in enumerate(arrays):
+        earlier = seen.setdefault(array.tobytes(), later)
+        if earlier != later:
+            yield earlier, later
 
 
 def judge_promise(

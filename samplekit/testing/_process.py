@@ -56,6 +56,11 @@ class OtherProcess:
         The line on standard error that explains the problem best; empty if there is none.
     printed
         What the process wrote to standard output.
+
+    Raises
+    ------
+    NoResultError
+        An argument cannot be pickled.
     """
 
     def __init__(
@@ -66,13 +71,13 @@ class OtherProcess:
         memory: float | None = None,
         environment: Mapping[str, str] | None = None,
     ) -> None:
-        self._request = pickle.dumps((function, arguments))
+        try:
+            self._request = pickle.dumps((function, arguments))
+        except Exception as error:
+            raise NoResultError(f"cannot be pickled: {reason(error)}") from None
         self._seconds, self._memory = seconds, memory
-        self._environment = {
-            **os.environ,
-            "PYTHONPATH": os.pathsep.join(filter(None, sys.path)),
-            **(environment or {}),
-        }
+        path = os.pathsep.join(filter(None, sys.path))
+        self._environment = {**os.environ, "PYTHONPATH": path, **(environment or {})}
         self.problem = self.last_line = ""
         self.printed = b""
 
@@ -82,7 +87,7 @@ class OtherProcess:
             request.write_bytes(self._request)
             results.touch()
             with printed.open("wb") as out, errors.open("wb") as err:
-                process = subprocess.Popen(
+                process = psutil.Popen(
                     [sys.executable, "-X", "faulthandler", "-m", __name__, str(request), str(results)],
                     stdin=subprocess.DEVNULL,
                     stdout=out,
@@ -110,7 +115,7 @@ class OtherProcess:
             raise NoResultError(f"{self.problem}: {self.last_line}" if self.last_line else self.problem)
         return results[0]
 
-    def _watch(self, process: subprocess.Popen[bytes], stream: BinaryIO) -> Iterator[Any]:
+    def _watch(self, process: psutil.Popen, stream: BinaryIO) -> Iterator[Any]:
         """Yield results until the process ends or exceeds a limit."""
         since = time.monotonic()
         alive, finished, problem = True, False, ""
@@ -146,7 +151,7 @@ def _whole_results(stream: BinaryIO) -> Iterator[Any]:
             return
 
 
-def _memory_of(process: subprocess.Popen[bytes]) -> int:
+def _memory_of(process: psutil.Popen) -> int:
     """Return the resident bytes of a process and what it has started, as far as these still run."""
     memory = 0
     for each in _family(process):
@@ -155,22 +160,18 @@ def _memory_of(process: subprocess.Popen[bytes]) -> int:
     return memory
 
 
-def _kill(process: subprocess.Popen[bytes]) -> None:
+def _kill(process: psutil.Popen) -> None:
     """End a process and what it has started, by their ids."""
-    family = _family(process)
-    process.kill()
-    process.wait()
-    for each in family:
+    for each in _family(process):
         with contextlib.suppress(psutil.Error):
             each.kill()
+    process.wait()
 
 
-def _family(process: subprocess.Popen[bytes]) -> list[psutil.Process]:
-    try:
-        parent = psutil.Process(process.pid)
-        return [parent, *parent.children(recursive=True)]
-    except psutil.Error:
-        return []
+def _family(process: psutil.Popen) -> list[psutil.Process]:
+    with contextlib.suppress(psutil.Error):
+        return [process, *process.children(recursive=True)]
+    return []
 
 
 def _last_line(errors: Path) -> str:

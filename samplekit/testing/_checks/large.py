@@ -9,7 +9,7 @@ import numpy as np
 from samplekit._bases.realizations import Realizations
 from samplekit._specs import Net
 from samplekit.testing._checks.range import judge_range
-from samplekit.testing._judge import judge_equal, judge_promise
+from samplekit.testing._judge import judge_equal, judge_promise, repeated
 from samplekit.testing._result import CheckFailed, NotApplicable, conformance_check
 
 if TYPE_CHECKING:
@@ -83,14 +83,10 @@ def check_pixel_extremes(subject: SamplerSubject) -> None:
                 "the set of a pixel is another one when it is asked for alone",
                 subject.request(count, dims, realization=pixel),
             )
-    seen: dict[bytes, tuple[int, int]] = {}
-    for pixel, points in zip(pixels, values, strict=True) if subject.spec.randomized else ():
-        earlier = seen.setdefault(points.tobytes(), pixel)
-        if earlier != pixel and not _may_repeat(subject.spec.period, earlier, pixel):
+    period = subject.spec.period
+    for first, second in repeated(values) if subject.spec.randomized else ():
+        if period is None or (x[second] - x[first]) % period != 0 or (y[second] - y[first]) % period != 0:
             raise CheckFailed(
-                f"pixels {earlier} and {pixel} have the same set", subject.request(count, dims, realization=pixel)
+                f"pixels {pixels[first]} and {pixels[second]} have the same set",
+                subject.request(count, dims, realization=pixels[second]),
             )
-
-
-def _may_repeat(period: int | None, first: tuple[int, int], second: tuple[int, int]) -> bool:
-    return period is not None and all((b - a) % period == 0 for a, b in zip(first, second, strict=True))

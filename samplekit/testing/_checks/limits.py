@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit._errors import CountError, UsageError
+from samplekit.testing._judge import repeated
 from samplekit.testing._result import CheckFailed, conformance_check
 
 if TYPE_CHECKING:
@@ -90,11 +91,9 @@ def _judge_dimensions_differ(subject: SamplerSubject) -> None:
     if dims < 2 or count < 16:
         return
     values = subject.sets(count, dims, 1)
-    seen: dict[bytes, int] = {}
-    for dimension, row in enumerate(values[0]):
-        earlier = seen.setdefault(row.tobytes(), dimension)
-        if earlier != dimension:
-            raise CheckFailed(
-                f"dimensions {earlier} and {dimension} are the same numbers in all {count} points",
-                subject.example(values, count, indices=(0, count - 1), axes=(earlier, dimension)),
-            )
+    pair = next(repeated(values[0]), None)
+    if pair is not None:
+        raise CheckFailed(
+            f"dimensions {pair[0]} and {pair[1]} are the same numbers in all {count} points",
+            subject.example(values, count, indices=(0, count - 1), axes=pair),
+        )

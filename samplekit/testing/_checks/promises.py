@@ -29,15 +29,17 @@ def promised_nets(spec: SamplerSpec) -> list[Net]:
     return [net for net in spec.promised(Net) if most is None or max(net.dims) < most]
 
 
-@conformance_check("elementary-intervals", 7, requires=lambda spec: "" if promised_nets(spec) else "it promises no net")
+@conformance_check("elementary-intervals", 7)
 def check_elementary_intervals(subject: SamplerSubject) -> None:
     """Every elementary interval of every promised net holds its points: first block, later ones of a sequence.
 
     A (t, m, s)-net has b^t points in every b-adic box of volume b^(t - m), of every shape: Niederreiter 1987, "Point
     sets and sequences with small discrepancy".
     """
-    judged = False
     nets = promised_nets(subject.spec)
+    if not nets:
+        raise NotApplicable("it promises no net")
+    judged = False
     for net in nets:
         dims = subject.dims(max(net.dims) + 1)
         for m in range(net.t, 64):
@@ -87,11 +89,13 @@ def _judge_later_blocks(subject: SamplerSubject, net: Net, block: int, dims: int
         judge_promise(subject, net, values, count, start=start)
 
 
-@conformance_check("strata", 8, requires=lambda spec: "" if spec.promised(Strata) else "it promises no strata")
+@conformance_check("strata", 8)
 def check_strata(subject: SamplerSubject) -> None:
     """Every promised interval and cell holds exactly one point, in every set."""
-    judged = False
     promises = subject.spec.promised(Strata)
+    if not promises:
+        raise NotApplicable("it promises no strata")
+    judged = False
     for promise in promises:
         for dims in sorted({subject.dims(d) for d in (1, 2, 3, 5)}):
             for count in subject.counts(*(_QUICK_COUNTS if subject.quick else _COUNTS), dims=dims):
@@ -105,16 +109,14 @@ def check_strata(subject: SamplerSubject) -> None:
             judge_promise(subject, promise, extreme.values, extreme.count, when=extreme.when)
 
 
-@conformance_check(
-    "minimum-distance",
-    9,
-    tolerance="2^-51, the rounding of the coordinates",
-    requires=lambda spec: "" if spec.promised(MinimumDistance) else "it promises no minimum distance",
-)
+@conformance_check("minimum-distance", 9)
 def check_minimum_distance(subject: SamplerSubject) -> None:
     """No two points are closer than the promised part of the densest packing's distance, on the torus."""
+    promises = subject.spec.promised(MinimumDistance)
+    if not promises:
+        raise NotApplicable("it promises no minimum distance")
     judged = False
-    for promise in subject.spec.promised(MinimumDistance):
+    for promise in promises:
         for dims in sorted({subject.dims(d) for d in (1, 2, 3)}):
             for count in subject.counts(*(_QUICK_DISTANCE_COUNTS if subject.quick else _DISTANCE_COUNTS), dims=dims):
                 if promise.distance(count, dims) is not None:

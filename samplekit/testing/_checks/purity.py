@@ -35,7 +35,7 @@ def check_purity(subject: SamplerSubject) -> None:
         for other in _at_once(subject, count, dims):
             judge_equal(subject, whole, other, count, "while another thread asked as well")
     if not subject.quick:
-        judge_elsewhere(subject, "pickle", "pickled, in another process")
+        judge_elsewhere(subject, subject.sampler, "pickled, in another process")
 
 
 @contextlib.contextmanager

@@ -39,7 +39,7 @@ def check_range(subject: SamplerSubject) -> None:
     # A uniform float64 rounds to 1.0 in float32 with probability 2^-25: no fault, unless it happens far more often.
     expected = drawn * 2.0**-25
     if rounded > expected + 6.0 * math.sqrt(expected) + 2:
-        subject.hint(
+        subject.hints.append(
             f"{rounded} of {drawn} values round to 1.0 in float32, {expected:.2g} are expected of uniform ones:"
             " code that converts them must clamp"
         )
