@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
-from typing import TYPE_CHECKING
 
 from samplekit._checks import check_positive
 from samplekit._choices import parse_choice
@@ -12,13 +12,9 @@ from samplekit._registry import registry
 from samplekit._specs import SamplerSpec
 from samplekit.testing._isolated import check_isolated
 from samplekit.testing._report import Report, SubjectReport
+from samplekit.testing._result import Kind, Outcome
 from samplekit.testing._subject import Recipe, make_subject
 from samplekit.testing._suite import SUITES, choose_checks, run_checks
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Sequence
-
-    from samplekit.testing._result import Kind, Outcome
 
 
 def check(

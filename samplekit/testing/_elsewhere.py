@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 import numpy as np
 
 from samplekit._bases.realizations import Realizations
+from samplekit._configured.sampler import ConfiguredSampler
 from samplekit._configured.sampler import sampler as configured_sampler
 from samplekit._quoting import reason
+from samplekit._specs import SamplerSpec
 from samplekit.testing._judge import judge_equal
 from samplekit.testing._process import NoResultError, OtherProcess
 from samplekit.testing._result import CheckFailed
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from samplekit._configured.sampler import ConfiguredSampler
-    from samplekit._specs import SamplerSpec
-    from samplekit.testing._subject import Array, SamplerSubject
+from samplekit.testing._subject import Array, SamplerSubject
 
 _SECONDS = 120.0
 _COUNT, _DIMS, _REALIZATIONS, _SEED = 64, 3, 8, 3

@@ -2,17 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from html import escape
-from typing import TYPE_CHECKING
 
-from samplekit.testing._report import rate_line
-from samplekit.testing._result import BROKEN
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from samplekit.testing._report import SubjectReport
-    from samplekit.testing._result import CounterExample, Outcome
+from samplekit.testing._report import SubjectReport, rate_line
+from samplekit.testing._result import BROKEN, CounterExample, Outcome
 
 _STYLE = """
 body { font: 15px/1.5 system-ui, sans-serif; color: #2b323c; max-width: 72rem; margin: 2rem auto; padding: 0 1rem; }

@@ -5,16 +5,12 @@ After an abnormal end another process goes on with the next check.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterator, Sequence
+from typing import Any
 
 from samplekit.testing._process import OtherProcess
-from samplekit.testing._result import Outcome
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    from samplekit.testing._result import Kind
-    from samplekit.testing._subject import Recipe
+from samplekit.testing._result import Kind, Outcome
+from samplekit.testing._subject import Recipe
 
 _MOST_ENDS = 3
 """Abnormal ends after which the remaining checks are not run: each may have taken all of its time."""

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
+from samplekit._specs import Promise
 from samplekit.testing._result import CheckFailed
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from samplekit._specs import Promise
-    from samplekit.testing._subject import Array, SamplerSubject
+from samplekit.testing._subject import Array, SamplerSubject
 
 
 def judge_equal(

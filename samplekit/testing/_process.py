@@ -15,15 +15,13 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import Any, BinaryIO
 
 import psutil
 
 from samplekit._quoting import reason
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
 
 _POLL = 0.02
 

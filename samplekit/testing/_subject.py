@@ -5,27 +5,23 @@ from __future__ import annotations
 import heapq
 import math
 import time
+from collections.abc import Iterator
 from functools import cached_property
 from itertools import takewhile
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from samplekit._bases.realizations import Realizations
+from samplekit._configured.sampler import ConfiguredSampler
 from samplekit._configured.sampler import sampler as configured_sampler
+from samplekit._configured.scene import ConfiguredScene
 from samplekit._configured.scene import scene as configured_scene
 from samplekit._errors import InvalidPointsError, SamplekitError, UsageError
 from samplekit._specs import SamplerSpec, SceneSpec
 from samplekit.testing._forced_bits import Extreme, forced_extremes
-from samplekit.testing._result import CheckFailed, CounterExample
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from samplekit._configured.sampler import ConfiguredSampler
-    from samplekit._configured.scene import ConfiguredScene
-    from samplekit.testing._result import Kind
+from samplekit.testing._result import CheckFailed, CounterExample, Kind
 
 Array = NDArray[np.float64]
 Recipe = str | SamplerSpec | SceneSpec

@@ -4,20 +4,16 @@ from __future__ import annotations
 
 import pkgutil
 import time
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from importlib import import_module
-from typing import TYPE_CHECKING, NamedTuple, get_args
+from typing import NamedTuple, get_args
 
 from samplekit._errors import UnknownNameError, UsageError
 from samplekit._quoting import reason
+from samplekit._specs import SamplerSpec, SceneSpec
 from samplekit.testing import _checks
 from samplekit.testing._result import Check, CheckFailed, Kind, NotApplicable, Outcome
-from samplekit.testing._subject import make_subject
-
-if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator, Mapping, Sequence
-
-    from samplekit._specs import SamplerSpec, SceneSpec
-    from samplekit.testing._subject import Recipe, Subject
+from samplekit.testing._subject import Recipe, Subject, make_subject
 
 _MODULES = [import_module(f"{_checks.__name__}.{each.name}") for each in pkgutil.iter_modules(_checks.__path__)]
 _FOUND = [each for module in _MODULES for each in vars(module).values() if isinstance(each, Check)]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 from concurrent.futures import ThreadPoolExecutor
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,9 +12,7 @@ from samplekit._configured.sampler import sampler as configured_sampler
 from samplekit.testing._elsewhere import judge_elsewhere
 from samplekit.testing._judge import judge_equal
 from samplekit.testing._result import CheckFailed, conformance_check
-
-if TYPE_CHECKING:
-    from samplekit.testing._subject import SamplerSubject
+from samplekit.testing._subject import SamplerSubject
 
 _REALIZATIONS = 70
 

@@ -7,15 +7,12 @@ have correlation 0.09, which belongs to the sequence and falls as 1/N; the corre
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from samplekit.testing._result import CheckFailed, NotApplicable, conformance_check
 from samplekit.testing._statistics import chi_square_threshold, normal_threshold
-
-if TYPE_CHECKING:
-    from samplekit.testing._subject import Array, SamplerSubject
+from samplekit.testing._subject import Array, SamplerSubject
 
 _DIMS, _QUICK_DIMS = 8, 4
 _COUNT = 4096

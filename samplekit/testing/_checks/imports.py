@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import sys
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from samplekit._registry import ALLOW_VARIABLE, BUILTIN, registry
@@ -11,8 +12,7 @@ from samplekit.testing._process import NoResultError, OtherProcess
 from samplekit.testing._result import CheckFailed, NotApplicable, conformance_check
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
+    # The other process imports this module, which must not import NumPy itself.
     from samplekit.testing._subject import Subject
 
 _HEAVY = {"numpy", "numba", "scipy", "OpenImageIO", "skimage"}

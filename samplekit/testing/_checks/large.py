@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from samplekit._bases.realizations import Realizations
@@ -11,9 +9,7 @@ from samplekit._specs import Net
 from samplekit.testing._checks.range import judge_range
 from samplekit.testing._judge import judge_equal, judge_promise, repeated
 from samplekit.testing._result import CheckFailed, NotApplicable, conformance_check
-
-if TYPE_CHECKING:
-    from samplekit.testing._subject import SamplerSubject
+from samplekit.testing._subject import SamplerSubject
 
 _PLACES = (2**16, 2**31 - 1, 2**32, 2**40)
 _POINTS = 16

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from samplekit._errors import CountError, UsageError
 from samplekit.testing._judge import repeated
 from samplekit.testing._result import CheckFailed, conformance_check
-
-if TYPE_CHECKING:
-    from samplekit.testing._subject import SamplerSubject
+from samplekit.testing._subject import SamplerSubject
 
 _COUNTS = (2, 3, 5, 6, 7, 11, 12, 13, 15, 17, 31, 48, 63, 64, 65, 97, 100, 127, 129, 1000, 1009)
 

@@ -7,7 +7,6 @@ Pixels of different blocks are independent.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,9 +15,7 @@ from samplekit.testing._checks.screen import judge_blocks
 from samplekit.testing._judge import repeated
 from samplekit.testing._result import CheckFailed, NotApplicable, conformance_check
 from samplekit.testing._statistics import normal_threshold
-
-if TYPE_CHECKING:
-    from samplekit.testing._subject import Array, SamplerSubject
+from samplekit.testing._subject import Array, SamplerSubject
 
 _PIXELS, _QUICK_PIXELS = 1 << 17, 1 << 13
 _LAGS = (1, 2, 16, 256)

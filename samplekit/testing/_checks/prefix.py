@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from samplekit._bases.realizations import Realizations
 from samplekit.testing._judge import judge_equal
 from samplekit.testing._result import NotApplicable, conformance_check
-
-if TYPE_CHECKING:
-    from samplekit.testing._subject import SamplerSubject
+from samplekit.testing._subject import SamplerSubject
 
 _POWERS = tuple(n for k in range(1, 13) for n in (2**k - 1, 2**k, 2**k + 1))
 _BASES = tuple(b**k for b in (3, 5, 7) for k in range(1, 8) if b**k < 5000)

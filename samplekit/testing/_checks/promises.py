@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 from samplekit._bases.realizations import Realizations
-from samplekit._specs import MinimumDistance, Net, Strata
+from samplekit._specs import MinimumDistance, Net, SamplerSpec, Strata
 from samplekit.testing._judge import judge_promise
 from samplekit.testing._result import NotApplicable, conformance_check
-
-if TYPE_CHECKING:
-    from samplekit._specs import SamplerSpec
-    from samplekit.testing._subject import SamplerSubject
+from samplekit.testing._subject import SamplerSubject
 
 _LARGEST_NET, _LARGEST_QUICK_NET = 1 << 16, 1 << 12
 _LARGEST_BLOCK = 1 << 10

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from samplekit._bases.realizations import Realizations
 from samplekit.testing._result import CheckFailed, conformance_check
-
-if TYPE_CHECKING:
-    from samplekit.testing._subject import Array, SamplerSubject
+from samplekit.testing._subject import Array, SamplerSubject
 
 _COUNTS = (1, 2, 3, 5, 7, 64, 97, 100, 1000)
 _ROUNDS_TO_ONE = np.float64(1.0 - 2.0**-25)

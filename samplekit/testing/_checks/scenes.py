@@ -5,16 +5,13 @@ from __future__ import annotations
 import functools
 import math
 from concurrent.futures import ThreadPoolExecutor
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from samplekit.testing._checks.purity import changing_nothing
 from samplekit.testing._result import CheckFailed, NotApplicable, conformance_check
 from samplekit.testing._statistics import SAMPLER_RATE, student_threshold
-
-if TYPE_CHECKING:
-    from samplekit.testing._subject import Array, SceneSubject
+from samplekit.testing._subject import Array, SceneSubject
 
 _NODES = (16, 32, 64)
 _SMOOTH = 1e-12

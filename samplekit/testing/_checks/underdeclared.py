@@ -2,14 +2,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from samplekit._specs import AnyCount, GridStrata, LatinStrata, Net
+from samplekit._specs import AnyCount, GridStrata, LatinStrata, Net, Promise
 from samplekit.testing._result import conformance_check
-
-if TYPE_CHECKING:
-    from samplekit._specs import Promise
-    from samplekit.testing._subject import SamplerSubject
+from samplekit.testing._subject import SamplerSubject
 
 _REALIZATIONS = 8
 

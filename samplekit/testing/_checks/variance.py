@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 
 from samplekit._specs import Strata
 from samplekit.testing._result import CheckFailed, NotApplicable, conformance_check
 from samplekit.testing._statistics import normal_threshold
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from samplekit.testing._subject import Array, SamplerSubject
+from samplekit.testing._subject import Array, SamplerSubject
 
 _COUNTS = (256, 1024)
 _REALIZATIONS, _QUICK_REALIZATIONS = 1 << 12, 1 << 9
