@@ -12,7 +12,7 @@ from samplekit._configured.sampler import sampler as configured_sampler
 from samplekit._quoting import reason
 from samplekit._specs import SamplerSpec
 from samplekit.testing._judge import judge_equal
-from samplekit.testing._process import NoResultError, OtherProcess
+from samplekit.testing._process import NoResultError, run_elsewhere
 from samplekit.testing._result import CheckFailed
 from samplekit.testing._subject import Array, SamplerSubject
 
@@ -39,8 +39,7 @@ def judge_elsewhere(subject: SamplerSubject, source: str | SamplerSpec | Configu
     (count,) = subject.counts(_COUNT, dims=dims)
     environment = {"PYTHONHASHSEED": "4711"}
     try:
-        process = OtherProcess(f"{__name__}:answer", source, count, dims, seconds=_SECONDS, environment=environment)
-        points = process.one_result()
+        (points,) = run_elsewhere(f"{__name__}:answer", source, count, dims, seconds=_SECONDS, environment=environment)
     except NoResultError as error:
         points = str(error)
     if isinstance(points, str):

@@ -84,5 +84,6 @@ def judge_promise(
             "; it is rounding: moved up by 8 units in the last place the points keep the promise:"
             " add up digits in integers and divide once"
         )
-    place = {"row": found.realization, "axes": found.axes, "box": found.box, "indices": found.points}
-    raise CheckFailed(message, subject.example(values, count, seed=seed, start=start, **place))  # type: ignore[arg-type]
+    row, indices, axes, box = found.realization, found.points, found.axes, found.box
+    example = subject.example(values, count, seed=seed, row=row, start=start, indices=indices, axes=axes, box=box)
+    raise CheckFailed(message, example)

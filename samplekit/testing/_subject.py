@@ -5,6 +5,7 @@ from __future__ import annotations
 import heapq
 import math
 import time
+from bisect import bisect_left
 from collections.abc import Iterator
 from functools import cached_property
 from itertools import takewhile
@@ -20,7 +21,7 @@ from samplekit._configured.scene import ConfiguredScene
 from samplekit._configured.scene import scene as configured_scene
 from samplekit._errors import InvalidPointsError, SamplekitError, UsageError
 from samplekit._specs import SamplerSpec, SceneSpec
-from samplekit.testing._forced_bits import Extreme, forced_extremes
+from samplekit.testing._forced_bits import forced_extremes
 from samplekit.testing._result import CheckFailed, CounterExample, Kind
 
 Array = NDArray[np.float64]
@@ -135,13 +136,12 @@ class SamplerSubject(Subject):
         return True
 
     def counts(self, *wanted: int, dims: int) -> list[int]:
-        """Return the count nearest to each wanted one; a slow sampler is not asked for those that take it too long."""
-        affordable = [count for count in wanted if count <= 256 or count <= self.largest_count]
-        return self.nearest_counts(affordable or [256], dims)
+        """Return for each wanted count the nearest that is declared and that the sampler makes: rising, each once.
 
-    def nearest_counts(self, wanted: list[int], dims: int) -> list[int]:
-        """Return for each wanted count the nearest that is declared and that the sampler makes: rising, each once."""
-        near = (self._nearest_count(min(count, self.spec.largest_index + 1), dims) for count in wanted)
+        Counts that would take a slow sampler too long are left out.
+        """
+        affordable = [count for count in wanted if count <= 256 or count <= self.largest_count]
+        near = (self._nearest_count(min(count, self.spec.largest_index + 1), dims) for count in affordable or [256])
         return sorted({count for count in near if count is not None})
 
     def _nearest_count(self, wanted: int, dims: int) -> int | None:
@@ -166,20 +166,18 @@ class SamplerSubject(Subject):
         if self.spec.counts.depends_on_dims:
             return min(high, max(self.spec.dimensions[0], _MOST_GRID_DIMS))
         counts = [count for count in range(_SMALL, 0, -1) if self.spec.counts.allows(count, high)]
-        low = min(self.dims(1), high)
-        while low < high:
-            middle = (low + high + 1) // 2
-            if any(self.makes(count, middle) for count in counts):
-                low = middle
-            else:
-                high = middle - 1
-        return low
+        low = self.dims(1)
+
+        def refuses_all(dims: int) -> bool:
+            return not any(self.makes(count, dims) for count in counts)
+
+        return low + bisect_left(range(low + 1, high + 1), True, key=refuses_all)
 
     @cached_property
     def largest_count(self) -> int:
         """The largest set that is judged: smaller for a sampler that takes long for 256 points."""
         dims = self.dims(2)
-        small, count = (self.nearest_counts([wanted], dims)[0] for wanted in (16, 256))
+        small, count = (self.counts(wanted, dims=dims)[0] for wanted in (16, 256))
         # Kernels are compiled for the small set; what is prepared for each count is counted in part.
         self.sets(small, dims, 1)
         began = time.process_time()
@@ -273,7 +271,7 @@ class SamplerSubject(Subject):
         start: int = 0,
         indices: tuple[int, ...] = (),
         axes: tuple[int, ...] = (),
-        box: tuple[tuple[float, float], ...] = (),
+        **details: Any,
     ) -> CounterExample:
         """Return a counter-example in row ``row`` of ``values`` float64[R, D, n].
 
@@ -288,9 +286,9 @@ class SamplerSubject(Subject):
             indices=tuple(start + i for i in indices),
             coordinates=tuple(tuple(float(x) for x in points[i, list(axes) or slice(None)][:8]) for i in indices),
             axes=axes,
-            box=box,
             points=points.copy() if points.size <= _LARGEST_KEPT else None,
             start=start,
+            **details,
         )
 
     def affordable(self, wanted: int, count: int, dims: int, least: int = 64) -> int:
@@ -318,7 +316,7 @@ class SamplerSubject(Subject):
         return (time.process_time() - began) / sets
 
     @cached_property
-    def extremes(self) -> list[Extreme]:
+    def extremes(self) -> list[tuple[str, Array]]:
         """Points made with all random bits ones, and zeros; none in a quick run. See :func:`forced_extremes`."""
         return [] if self.quick else forced_extremes(self)
 

@@ -8,7 +8,7 @@ from samplekit.testing._subject import SamplerSubject
 
 def nearest(counts, wanted, **declared):
     spec = SamplerSpec("plain", "faulty_samplers:Plain", "for tests", counts=counts, **declared)
-    return SamplerSubject(spec).nearest_counts([wanted], 2)
+    return SamplerSubject(spec).counts(wanted, dims=2)
 
 
 @pytest.mark.parametrize(
@@ -30,7 +30,7 @@ def test_the_smaller_of_two_counts_that_are_as_near_is_taken():
 
 def test_counts_that_the_sampler_refuses_and_those_too_large_are_passed_over():
     spec = SamplerSpec("picky", "faulty_samplers:Picky", "for tests", counts=PowersOf(2))
-    assert SamplerSubject(spec).nearest_counts([100], 2) == [32]
+    assert SamplerSubject(spec).counts(100, dims=2) == [32]
     assert nearest(PowersOf(2), 100, largest_index=99) == [64]
     assert nearest(PowersOf(2), 1000, largest_index=99) == [64]
     assert nearest(Exactly(2**17 + 1), 100) == []

@@ -1,4 +1,4 @@
-"""Across dimensions: pairs of dimensions, padded ones above all, are not correlated.
+"""Across dimensions: no two dimensions are correlated, above all no padded ones.
 
 The sets are so large that true sequences have converged: with 256 points, Halton's dimensions 6 and 7 (bases 17 and 19)
 have correlation 0.09, which belongs to the sequence and falls as 1/N; the correlation of wrongly padded ones stays.

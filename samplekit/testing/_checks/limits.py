@@ -1,4 +1,4 @@
-"""Limits: what a sampler cannot make it refuses, naming the nearest that it can; what it accepts it makes in full."""
+"""A sampler refuses what it cannot make, and names the nearest that it can; what it accepts, it makes in full."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ def _judge_made_in_full(subject: SamplerSubject, count: int, dims: int) -> None:
 
 
 def _judge_dimensions_differ(subject: SamplerSubject) -> None:
-    """Raise if two dimensions are the same numbers: a number of dimensions that is wrapped in silence repeats them."""
+    """Raise if two dimensions are equal, as they are if a sampler wraps the number of a dimension without a word."""
     spec = subject.spec
     dims = subject.most_dims((spec.dimensions[1] or 256) if not subject.quick else 256)
     # A grid in so many dimensions has two cells along each.

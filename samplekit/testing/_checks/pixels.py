@@ -24,7 +24,7 @@ _COUNT = 4
 
 @conformance_check("across-pixels", 13)
 def check_across_pixels(subject: SamplerSubject) -> None:
-    """No two of 2^17 pixels of a row, and of a column, have one set; neighbours are not correlated, or share a net."""
+    """No two of 2^17 pixels in a row or column have the same set; neighbours are not correlated, or share a net."""
     if not subject.spec.randomized:
         raise NotApplicable("it is not declared randomised: all pixels have one set")
     dims = subject.dims(2)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from samplekit._bases.realizations import Realizations
-from samplekit._specs import MinimumDistance, Net, SamplerSpec, Strata
+from samplekit._specs import MinimumDistance, Net, Promise, SamplerSpec, Strata
 from samplekit.testing._judge import judge_promise
 from samplekit.testing._result import NotApplicable, conformance_check
 from samplekit.testing._subject import SamplerSubject
@@ -27,7 +28,7 @@ def promised_nets(spec: SamplerSpec) -> list[Net]:
 
 @conformance_check("elementary-intervals", 7)
 def check_elementary_intervals(subject: SamplerSubject) -> None:
-    """Every elementary interval of every promised net holds its points: first block, later ones of a sequence.
+    """Every elementary interval of every promised net holds its share of points, also in later blocks of a sequence.
 
     A (t, m, s)-net has b^t points in every b-adic box of volume b^(t - m), of every shape: Niederreiter 1987, "Point
     sets and sequences with small discrepancy".
@@ -53,14 +54,18 @@ def check_elementary_intervals(subject: SamplerSubject) -> None:
                 _judge_later_blocks(subject, net, count, dims)
     if not judged:
         raise NotApplicable("it makes no count that is a power of a promised base")
-    for extreme in subject.extremes:
-        for net in nets:
-            judge_promise(subject, net, extreme.values, extreme.count, when=extreme.when)
+    _judge_extremes(subject, nets)
+
+
+def _judge_extremes(subject: SamplerSubject, promises: Sequence[Promise]) -> None:
+    for when, values in subject.extremes:
+        for promise in promises:
+            judge_promise(subject, promise, values, values.shape[2], when=when)
 
 
 def _judge_sets(
     subject: SamplerSubject,
-    promise: Net | Strata,
+    promise: Promise,
     count: int,
     dims: int,
     wanted: int,
@@ -100,9 +105,7 @@ def check_strata(subject: SamplerSubject) -> None:
                     _judge_sets(subject, promise, count, dims, 64 if count <= 100 else 4, least=4)
     if not judged:
         raise NotApplicable("no count that it makes has the promised strata")
-    for extreme in subject.extremes:
-        for promise in promises:
-            judge_promise(subject, promise, extreme.values, extreme.count, when=extreme.when)
+    _judge_extremes(subject, promises)
 
 
 @conformance_check("minimum-distance", 9)

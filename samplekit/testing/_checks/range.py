@@ -1,4 +1,4 @@
-"""Every value is in [0, 1), also where random bits are all zeros or all ones; every value is written, and no other."""
+"""Every value is in [0, 1), also if all random bits are zeros or ones; the sampler writes every value and no other."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ def check_range(subject: SamplerSubject) -> None:
             judge_range(subject, values, count, seed)
             rounded += int(np.count_nonzero(values >= _ROUNDS_TO_ONE))
             drawn += values.size
-    for extreme in subject.extremes:
-        judge_range(subject, extreme.values, extreme.count, 0, extreme.when)
+    for when, values in subject.extremes:
+        judge_range(subject, values, values.shape[2], 0, when)
     # A uniform float64 rounds to 1.0 in float32 with probability 2^-25: no fault, unless it happens far more often.
     expected = drawn * 2.0**-25
     if rounded > expected + 6.0 * math.sqrt(expected) + 2:

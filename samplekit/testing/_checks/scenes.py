@@ -87,14 +87,14 @@ def _quadrature(subject: SceneSubject, box: Array, tests: int) -> tuple[float, f
             values = subject.values(u, box)
             mean = float(weights @ values) / 4.0
             scale = max(1.0, abs(mean))
-            # Rules that see one value agree whatever passes between their nodes: a needle, a spike.
+            # Two rules that see one value only agree, even if a spike lies between their nodes.
             if abs(mean - previous) <= _SMOOTH * scale and np.ptp(values) > 0.0:
                 return mean, _SMOOTH_TOLERANCE * scale
             previous = mean
     means = np.array([subject.mean(u, box) for u in _shifted_lattices(subject.dims)])
     error = float(means.std(ddof=1)) / math.sqrt(_SHIFTS)
     threshold = student_threshold(tests, _SHIFTS - 1, SAMPLER_RATE)
-    # Sets that all give one value may all miss the same sliver: it is smaller than the cells of a lattice.
+    # If all sets give one value, they may all miss a sliver that is smaller than a cell of a lattice.
     mean = float(means.mean())
     return mean, threshold * error + 2.0 / _LATTICE + _SMOOTH * abs(mean)
 
@@ -109,7 +109,7 @@ def _product_rule(nodes: int) -> tuple[Array, Array]:
 # Made once for all pixels: making the rules and the lattices takes longer than using them.
 @functools.cache
 def _shifted_lattices(dims: int) -> list[Array]:
-    """Return Kronecker sets with square roots of primes as steps and random shifts: unbiased, and nobody's sampler."""
+    """Return Kronecker sets with square roots of primes as steps, shifted at random: unbiased, and none of ours."""
     base = np.arange(_LATTICE)[None, :] * np.sqrt(np.array(_PRIMES[:dims], float))[:, None]
     shifts = np.random.default_rng(5).random((_SHIFTS, dims, 1))
     return [np.minimum((base + shift) % 1.0, _ALMOST_ONE) for shift in shifts]
@@ -172,7 +172,7 @@ def check_constants(subject: SceneSubject) -> None:
 
 @conformance_check("dimensions-used", 4, kind="scene")
 def check_dimensions_used(subject: SceneSubject) -> None:
-    """Every dimension that it asks for changes its value somewhere: others are drawn for nothing."""
+    """Every dimension that the scene asks for changes its value somewhere."""
     declared = [purpose for purpose, _ in subject.spec.purposes]
     unknown = [purpose for purpose in subject.scene.needs if purpose not in declared]
     if unknown:
@@ -195,7 +195,7 @@ def check_dimensions_used(subject: SceneSubject) -> None:
 
 @conformance_check("purity", 5, kind="scene")
 def check_scene_purity(subject: SceneSubject) -> None:
-    """A pixel's sum is the same again, alone, from another thread; nothing else is changed, nothing printed."""
+    """The sum of a pixel is the same again, alone and in another thread; nothing else changes, nothing is printed."""
     rng = np.random.default_rng(13)
     pixels = 40
     boxes = np.stack([rng.integers(0, 64, pixels) / 64, np.full(pixels, 1 / 64)] * 2)

@@ -1,4 +1,4 @@
-"""Blocks of pixels that share one sequence: what takes the place of the independence of pixels.
+"""Judge blocks of pixels that share one sequence: for them, this replaces the independence of pixels.
 
 A sampler that declares ``screen_block`` must do two things. Exactly: the sets of a block's pixels together keep every
 net and all strata that are promised of one set, so they are different parts of one good set. Statistically: the part of

@@ -1,4 +1,4 @@
-"""Under-declaring: properties that a sampler has and does not declare, so that nobody can rely on them. Hints only."""
+"""Hints about properties that a sampler has but does not declare, so that no user can rely on them."""
 
 from __future__ import annotations
 
