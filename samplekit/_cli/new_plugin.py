@@ -11,9 +11,7 @@ from samplekit.commands import JsonOption
 
 
 def new_plugin(
-    name: Annotated[
-        str, typer.Argument(metavar="NAME", help="Name of the plugin and its sampler, such as golden-ratio.")
-    ],
+    name: Annotated[str, typer.Argument(metavar="NAME", help="Name of plugin and sampler, such as golden-ratio.")],
     directory: Annotated[
         Path, typer.Option("--directory", metavar="DIR", help="Where the folder samplekit-NAME is made.")
     ] = Path(),
@@ -29,12 +27,8 @@ def new_plugin(
     if json:
         from json import dumps
 
-        typer.echo(
-            dumps(
-                {"schema": "samplekit.new-plugin/1", "name": name, "files": [str(file) for file in files]},
-                allow_nan=False,
-            )
-        )
+        report = {"schema": "samplekit.new-plugin/1", "name": name, "files": [str(file) for file in files]}
+        typer.echo(dumps(report, allow_nan=False))
         return 0
     for file in files:
         typer.echo(str(file))
