@@ -1,4 +1,4 @@
-"""``samplekit check``: whether samplers and scenes are what they declare."""
+"""``samplekit check``: check that samplers and scenes are what they declare."""
 
 from __future__ import annotations
 
@@ -55,19 +55,24 @@ def check(
 
     if html is not None and not html.parent.is_dir():
         raise UsageError(f"--html {html}: there is no folder {html.parent}")
+
+    def show(subject: SubjectReport) -> None:
+        if not json:
+            typer.echo("\n".join(subject.table()))
+
     announce_compilation()
     with Progress("checking") as progress:
         report = testing.check(
             names or (),
             everything=everything,
             quick=quick,
-            only=only or None,
+            only=only,
             isolated=isolated,
             time_limit=time_limit,
             memory_limit=memory_limit,
             jobs=jobs,
             progress=progress,
-            report=_ignore if json else _show,
+            report=show,
         )
     if html is not None:
         html.write_text(report.page(), encoding="utf-8")
@@ -78,12 +83,3 @@ def check(
     else:
         typer.echo(report.summary)
     return CHECK_FAILED if report.failed else 0
-
-
-def _show(subject: SubjectReport) -> None:
-    for line in subject.table():
-        typer.echo(line)
-
-
-def _ignore(subject: SubjectReport) -> None:
-    """Print nothing: the one JSON object comes at the end."""

@@ -7,13 +7,11 @@ from typing import Annotated
 
 import typer
 
-from samplekit.commands._options import JsonOption
-
-SCHEMA = "samplekit.new-plugin/1"
+from samplekit.commands import JsonOption
 
 
 def new_plugin(
-    name: Annotated[str, typer.Argument(metavar="NAME", help="Of the plugin and its sampler, such as golden-ratio.")],
+    name: Annotated[str, typer.Argument(metavar="NAME", help="Name of plugin and sampler, such as golden-ratio.")],
     directory: Annotated[
         Path, typer.Option("--directory", metavar="DIR", help="Where the folder samplekit-NAME is made.")
     ] = Path(),
@@ -23,13 +21,14 @@ def new_plugin(
 
     Example: samplekit new-plugin golden-ratio
     """
-    from samplekit._scaffold import write_plugin
+    from samplekit._scaffold.plugin import write_plugin
 
     files = write_plugin(name, directory)
     if json:
         from json import dumps
 
-        typer.echo(dumps({"schema": SCHEMA, "name": name, "files": [str(file) for file in files]}, allow_nan=False))
+        report = {"schema": "samplekit.new-plugin/1", "name": name, "files": [str(file) for file in files]}
+        typer.echo(dumps(report, allow_nan=False))
         return 0
     for file in files:
         typer.echo(str(file))

@@ -1,6 +1,6 @@
-from ._cases import SamplerConformance as SamplerConformance
-from ._cases import SceneConformance as SceneConformance
 from ._check import check as check
+from ._conformance import SamplerConformance as SamplerConformance
+from ._conformance import SceneConformance as SceneConformance
 from ._report import Report as Report
 from ._report import SubjectReport as SubjectReport
 from ._result import CheckFailed as CheckFailed

@@ -1,9 +1,9 @@
-"""Checks of several samplers and scenes: all names are looked up first, then each is judged."""
+"""Check several samplers and scenes: all names are looked up first, then each is judged."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
-from typing import TYPE_CHECKING
 
 from samplekit._checks import check_positive
 from samplekit._choices import parse_choice
@@ -12,13 +12,9 @@ from samplekit._registry import registry
 from samplekit._specs import SamplerSpec
 from samplekit.testing._isolated import check_isolated
 from samplekit.testing._report import Report, SubjectReport
+from samplekit.testing._result import Kind, Outcome
 from samplekit.testing._subject import Recipe, make_subject
-from samplekit.testing._suite import CHECKS, SCENE_CHECKS, SUITES, chosen_checks, run_checks
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator, Sequence
-
-    from samplekit.testing._result import Kind, Outcome
+from samplekit.testing._suite import SUITES, choose_checks, run_checks
 
 
 def check(
@@ -79,7 +75,7 @@ def check(
     recipes = [recipe for i, recipe in enumerate(recipes) if recipe not in recipes[:i]]
     if not recipes:
         raise UsageError("check: expected NAME..., or --all (in Python everything=True)")
-    chosen_checks([*CHECKS, *SCENE_CHECKS], only)
+    choose_checks([*SUITES["sampler"], *SUITES["scene"]], only)
     check_positive("jobs", jobs)
     judge = partial(check_isolated, seconds=time_limit, memory=memory_limit * 2**30) if isolated else run_checks
     labels, tasks = [], []
@@ -108,32 +104,31 @@ def _all_names() -> list[str]:
 
 
 def _kinds(recipe: Recipe, *, configure: bool) -> list[tuple[str, Kind]]:
-    """Return a label and a kind for the sampler, the scene, or both, that a recipe means.
+    """Return a label and a kind for the sampler and for the scene that a recipe names: one of them, or both.
 
     Parameters
     ----------
     configure
-        Whether to try its options, which imports it: the module of an isolated one may be what crashes.
+        Whether to try its options, which imports it: the import of what is judged in isolation may crash.
 
     Raises
     ------
     UsageError
-        It means neither, or its options are wrong.
+        It names neither, or its options are wrong.
     """
     if not isinstance(recipe, str):
         return [(recipe.name, "sampler" if isinstance(recipe, SamplerSpec) else "scene")]
     choice = parse_choice(recipe, "sampler")
     kinds: list[Kind] = []
-    unknown: list[UnknownNameError] = []
+    unknown: UnknownNameError | None = None
     for kind in SUITES:
         try:
             registry().find(kind, choice.name)
-        except UnknownNameError as error:
-            unknown.append(error)
-        else:
             kinds.append(kind)
+        except UnknownNameError as error:
+            unknown = unknown or error
     if not kinds:
-        raise UsageError(f"{unknown[0]}; and no scene has that name")
+        raise UsageError(f"{unknown}; and no scene has that name")
     if choice.randomizer and "sampler" in kinds:
         # Only a sampler takes a randomizer.
         kinds = ["sampler"]

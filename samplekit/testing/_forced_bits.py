@@ -7,7 +7,6 @@ plain Python, and NumPy's bit generators by one that gives the wanted words. Oth
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,7 +14,7 @@ import numpy as np
 from samplekit._bases.realizations import Realizations
 from samplekit._configured.sampler import sampler as configured_sampler
 from samplekit._errors import SamplekitError
-from samplekit.testing._process import NoResultError, OtherProcess
+from samplekit.testing._process import NoResultError, run_elsewhere
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -23,7 +22,7 @@ if TYPE_CHECKING:
     from samplekit.testing._subject import Array, Recipe, SamplerSubject
 
 _SECONDS = 60.0
-_COUNTS = [1, 2, 3, 7, 16, 64, 97, 100]
+_COUNTS = (1, 2, 3, 7, 16, 64, 97, 100)
 _STATES = {0: 0, 2**64 - 1: 0x12DD9BB3}
 """States of a Mersenne twister that tempering turns into a word of zeros or of ones.
 
@@ -31,38 +30,28 @@ Matsumoto and Nishimura 1998, "Mersenne twister", section 2.1; tempering is one 
 """
 
 
-@dataclass(frozen=True, eq=False)
-class Extreme:
-    """Points float64[R, D, N] of sets of ``count``; ``when`` says which bits were forced, as the end of a message."""
+def forced_extremes(subject: SamplerSubject) -> list[tuple[str, Array]]:
+    """Make points with all random bits ones, and with all of them zeros.
 
-    when: str
-    count: int
-    values: Array
+    A sampler that rejects points may loop for ever when its bits are constant: then the list is empty, and the subject
+    gets a note.
 
-
-def forced_extremes(subject: SamplerSubject) -> list[Extreme]:
-    """Make points with all random bits ones, and zeros.
-
-    A sampler that rejects may loop for ever when its bits are constant: then there are none, and a note says so.
+    Returns
+    -------
+    For each count and kind of bits, which bits were forced, as the end of a message, and the points float64[R, D, N].
     """
     dims = subject.dims(2)
-    counts = subject.nearest_counts(_COUNTS, dims)
-    other = OtherProcess(
-        f"{__name__}:answer",
-        subject.recipe,
-        dims,
-        counts,
-        seconds=_SECONDS,
-        environment={"NUMBA_DISABLE_JIT": "1"},
-    )
+    counts = subject.counts(*_COUNTS, dims=dims)
+    request = (f"{__name__}:answer", subject.recipe, dims, counts)
+    extremes: list[tuple[str, Array]] = []
     try:
-        return [Extreme(*each) for each in other.one_result()]
+        (extremes,) = run_elsewhere(*request, seconds=_SECONDS, environment={"NUMBA_DISABLE_JIT": "1"})
     except NoResultError as error:
         subject.note(f"not judged with forced random bits: {error}")
-        return []
+    return extremes
 
 
-def answer(recipe: Recipe, dims: int, counts: list[int]) -> Iterator[list[tuple[str, int, Array]]]:
+def answer(recipe: Recipe, dims: int, counts: list[int]) -> Iterator[list[tuple[str, Array]]]:
     """Make the points; this runs in the other process."""
     from samplekit.kernels import _hashing as hashing
 
@@ -85,10 +74,10 @@ def answer(recipe: Recipe, dims: int, counts: list[int]) -> Iterator[list[tuple[
             try:
                 sampler.fill(out, Realizations.of_trials(0, 2, 0), count, 0)
             except SamplekitError:
-                # Values outside [0, 1) are what is looked for; anything else would fail without force as well.
+                # Values outside [0, 1) are what the checks look for; any other error is seen without forced bits too.
                 if not np.isfinite(out).all():
                     continue
-            made.append((f" with random bits all {pattern}", count, out))
+            made.append((f" with random bits all {pattern}", out))
     yield made
 
 

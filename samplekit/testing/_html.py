@@ -2,17 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from html import escape
-from typing import TYPE_CHECKING
 
-from samplekit.testing._report import rate_line
-from samplekit.testing._result import BROKEN
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from samplekit.testing._report import SubjectReport
-    from samplekit.testing._result import CounterExample, Outcome
+from samplekit.testing._report import SubjectReport, rate_line
+from samplekit.testing._result import BROKEN, CounterExample, Outcome
 
 _STYLE = """
 body { font: 15px/1.5 system-ui, sans-serif; color: #2b323c; max-width: 72rem; margin: 2rem auto; padding: 0 1rem; }
@@ -58,7 +52,7 @@ def _row(outcome: Outcome) -> str:
 
 
 def _figure(example: CounterExample) -> str:
-    """Draw the failing set with its cell shaded and the points that break it circled; empty if there are no points."""
+    """Draw the set that fails: its cell is shaded, the points at fault are circled. Empty if there are no points."""
     if example.points is None or not len(example.points):
         return ""
     import numpy as np
@@ -67,8 +61,8 @@ def _figure(example: CounterExample) -> str:
     from samplekit.plots._saving import inline_svg
 
     points = example.points
-    axes = list(example.axes) or list(range(min(points.shape[1], 2)))
-    axes = axes[:2] if len(axes) > 1 or points.shape[1] == 1 else [axes[0], next(i for i in (0, 1) if i != axes[0])]
+    # The dimensions that matter first, then others: two of them, if there are two.
+    axes = list(dict.fromkeys([*example.axes, *range(points.shape[1])]))[:2]
     drawn = np.clip(np.nan_to_num(points[:, axes], nan=0.0), 0.0, 1.0)
     names = ", ".join(map(str, axes))
     display = PointsDisplay(drawn, title=f"{example.sampler}, dimensions {names}", names=axes).plot()
@@ -78,18 +72,8 @@ def _figure(example: CounterExample) -> str:
         display.ax_.fill(
             [left, right, right, left], [low, low, high, high], color="#c2281d", alpha=0.15, linewidth=0.0, gid="cell"
         )
-    start = _first_index(example) if example.indices else 0
-    rows = [index - start for index in example.indices[:64] if 0 <= index - start < len(drawn)]
+    rows = [index - example.start for index in example.indices[:64] if 0 <= index - example.start < len(drawn)]
     if len(axes) == 2:
         x, y = drawn[rows].T
         display.ax_.scatter(x, y, 81.0, facecolors="none", edgecolors="#1f5fbf", linewidths=1.2, clip_on=False)
     return f"<figure>{inline_svg(display.figure_)}</figure>"
-
-
-def _first_index(example: CounterExample) -> int:
-    """Index of the first point that was kept: a slice of a larger set starts later."""
-    assert example.points is not None
-    for row, place in enumerate(example.points):
-        if example.coordinates and tuple(place[list(example.axes) or slice(None)][:8]) == example.coordinates[0]:
-            return example.indices[0] - row
-    return 0

@@ -5,16 +5,13 @@ After an abnormal end another process goes on with the next check.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import tempfile
+from collections.abc import Iterator, Sequence
+from typing import Any
 
-from samplekit.testing._process import OtherProcess
-from samplekit.testing._result import Outcome
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    from samplekit.testing._result import Kind
-    from samplekit.testing._subject import Recipe
+from samplekit.testing._process import NoResultError, run_elsewhere
+from samplekit.testing._result import Kind, Outcome
+from samplekit.testing._subject import Recipe
 
 _MOST_ENDS = 3
 """Abnormal ends after which the remaining checks are not run: each may have taken all of its time."""
@@ -46,22 +43,24 @@ def check_isolated(
     left = list(only)
     outcomes: list[Outcome] = []
     ends = 0
-    printed = b""
-    while left and ends < _MOST_ENDS:
-        process = OtherProcess(f"{__name__}:answer", recipe, kind, left, quick, seconds=seconds, memory=memory)
-        during = "while it was imported and configured"
-        for result in process:
-            if isinstance(result, Outcome):
-                left = left[1:]
-                outcomes.append(result)
-                yield result
-            during = f"during {left[0]}" if left else ""
-        printed += process.printed
-        if process.problem and left:
-            ends += 1
-            why = f": {process.last_line}" if process.last_line else ""
-            outcomes.append(Outcome(name, left.pop(0), "failed", f"{process.problem} {during}{why}"))
-            yield outcomes[-1]
+    with tempfile.TemporaryFile() as stdout:
+        while left and ends < _MOST_ENDS:
+            request = (f"{__name__}:answer", recipe, kind, left, quick)
+            during = "while it was imported and configured"
+            try:
+                for result in run_elsewhere(*request, seconds=seconds, memory=memory, stdout=stdout):
+                    if isinstance(result, Outcome):
+                        left = left[1:]
+                        outcomes.append(result)
+                        yield result
+                    during = f"during {left[0]}" if left else ""
+            except NoResultError as end:
+                if left:
+                    ends += 1
+                    outcomes.append(Outcome(name, left.pop(0), "failed", f"{end.problem} {during}{end.line}"))
+                    yield outcomes[-1]
+        stdout.seek(0)
+        printed = stdout.read()
     for check in left:
         yield Outcome(name, check, "failed", f"not run: {outcomes[-1].message}")
     if printed.strip():

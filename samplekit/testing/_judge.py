@@ -1,16 +1,14 @@
-"""Judge sets of points: equal bit for bit, or by a promise; a fault becomes a failed check with its counter-example."""
+"""Judge sets of points: equality bit for bit, and promises. A fault becomes a failed check with a counter-example."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Iterator
 
 import numpy as np
 
+from samplekit._specs import Promise
 from samplekit.testing._result import CheckFailed
-
-if TYPE_CHECKING:
-    from samplekit._specs import Promise
-    from samplekit.testing._subject import Array, SamplerSubject
+from samplekit.testing._subject import Array, SamplerSubject
 
 
 def judge_equal(
@@ -40,6 +38,15 @@ def judge_equal(
         f" {int(np.count_nonzero(different.any(axis=(1, 2))))} of {len(expected)} sets differ",
         subject.example(expected, count, seed=seed, row=row, start=start, indices=(point,)),
     )
+
+
+def repeated(arrays: Iterable[Array]) -> Iterator[tuple[int, int]]:
+    """Yield for each array that equals an earlier one bit for bit: the index of the first such array, and its own."""
+    seen: dict[bytes, int] = {}
+    for later, array in enumerate(arrays):
+        earlier = seen.setdefault(array.tobytes(), later)
+        if earlier != later:
+            yield earlier, later
 
 
 def judge_promise(
@@ -77,5 +84,6 @@ def judge_promise(
             "; it is rounding: moved up by 8 units in the last place the points keep the promise:"
             " add up digits in integers and divide once"
         )
-    place = {"row": found.realization, "axes": found.axes, "box": found.box, "indices": found.points}
-    raise CheckFailed(message, subject.example(values, count, seed=seed, start=start, **place))  # type: ignore[arg-type]
+    row, indices, axes, box = found.realization, found.points, found.axes, found.box
+    example = subject.example(values, count, seed=seed, row=row, start=start, indices=indices, axes=axes, box=box)
+    raise CheckFailed(message, example)

@@ -1,4 +1,4 @@
-"""A function in a Python process of its own, watched from outside: it may hang, crash or take too much memory.
+"""Call a function in a Python process of its own, watched from outside: it may hang, crash or take too much memory.
 
 The process is started anew, never forked. It sends results through a file, so that nothing that it prints disturbs
 them, and the limits need no system call that only some systems have.
@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import importlib
+import math
 import os
 import pickle
 import signal
@@ -15,25 +16,42 @@ import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Generator, Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import IO, Any
 
 import psutil
 
 from samplekit._quoting import reason
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
-
 _POLL = 0.02
 
 
 class NoResultError(Exception):
-    """Another process gave no result; the message says why."""
+    """Another process did not give all of its results.
+
+    Attributes
+    ----------
+    problem
+        What happened to the process.
+    line
+        The line on standard error that explains the problem best, behind a colon; empty if there is none.
+    """
+
+    def __init__(self, problem: str, line: str = "") -> None:
+        super().__init__(problem + line)
+        self.problem, self.line = problem, line
 
 
-class OtherProcess:
-    """A new process that calls one function; iterating over it starts the process and gives what the function yields.
+def run_elsewhere(
+    function: str,
+    *arguments: Any,
+    seconds: float,
+    memory: float = math.inf,
+    environment: Mapping[str, str] | None = None,
+    stdout: int | IO[bytes] = subprocess.DEVNULL,
+) -> Iterator[Any]:
+    """Call a function in a new process, and yield what it yields.
 
     Parameters
     ----------
@@ -44,98 +62,69 @@ class OtherProcess:
     seconds
         Longest time from the start to the first result, and from each result to the next.
     memory
-        Most bytes that the process and its children may hold; None: no limit.
+        Most bytes that the process and its children may hold.
     environment
         Environment variables to set.
+    stdout
+        Where the process prints.
 
-    Attributes
-    ----------
-    problem
-        After the iteration: how the process ended, if not well; otherwise empty.
-    last_line
-        The line on standard error that explains the problem best; empty if there is none.
-    printed
-        What the process wrote to standard output.
+    Raises
+    ------
+    NoResultError
+        The arguments cannot be pickled, or the process hung, died, raised, or took too much memory.
     """
-
-    def __init__(
-        self,
-        function: str,
-        *arguments: Any,
-        seconds: float,
-        memory: float | None = None,
-        environment: Mapping[str, str] | None = None,
-    ) -> None:
-        self._request = pickle.dumps((function, arguments))
-        self._seconds, self._memory = seconds, memory
-        self._environment = {
-            **os.environ,
-            "PYTHONPATH": os.pathsep.join(filter(None, sys.path)),
-            **(environment or {}),
-        }
-        self.problem = self.last_line = ""
-        self.printed = b""
-
-    def __iter__(self) -> Iterator[Any]:
-        with tempfile.TemporaryDirectory(prefix="samplekit-", ignore_cleanup_errors=True) as folder:
-            request, results, printed, errors = (Path(folder) / part for part in ("request", "results", "out", "err"))
-            request.write_bytes(self._request)
-            results.touch()
-            with printed.open("wb") as out, errors.open("wb") as err:
-                process = subprocess.Popen(
-                    [sys.executable, "-X", "faulthandler", "-m", __name__, str(request), str(results)],
-                    stdin=subprocess.DEVNULL,
-                    stdout=out,
-                    stderr=err,
-                    env=self._environment,
-                )
-            try:
-                with results.open("rb") as stream:
-                    yield from self._watch(process, stream)
-            finally:
-                _kill(process)
-            self.printed = printed.read_bytes()
-            self.last_line = _last_line(errors)
-
-    def one_result(self) -> Any:
-        """Return the only result.
-
-        Raises
-        ------
-        NoResultError
-            The process hung, died or raised.
-        """
-        results = list(self)
-        if self.problem:
-            raise NoResultError(f"{self.problem}: {self.last_line}" if self.last_line else self.problem)
-        return results[0]
-
-    def _watch(self, process: subprocess.Popen[bytes], stream: BinaryIO) -> Iterator[Any]:
-        """Yield results until the process ends or exceeds a limit."""
-        since = time.monotonic()
-        alive, finished, problem = True, False, ""
-        while alive and not problem:
-            # Asked before the file is read: results that are sent in between are read as well.
-            alive = process.poll() is None
-            for result in _whole_results(stream):
-                since, finished = time.monotonic(), result is None
-                if not finished:
-                    yield result
-            if time.monotonic() - since > self._seconds:
-                problem = f"hangs: no answer in {self._seconds:g} s"
-            elif self._memory is not None and _memory_of(process) > self._memory:
-                problem = f"takes more than {self._memory / 2**30:.3g} GiB of memory"
-            elif alive:
-                time.sleep(_POLL)
-            elif process.returncode < 0:
-                problem = f"crashes the interpreter ({signal.Signals(-process.returncode).name})"
-            else:
-                problem = f"ends the interpreter (status {process.returncode})"
-        # What goes wrong after the last result, while the interpreter shuts down, is no fault of the function.
-        self.problem = "" if finished else problem
+    try:
+        pickled = pickle.dumps((function, arguments))
+    except Exception as error:
+        raise NoResultError(f"cannot be pickled: {reason(error)}") from None
+    path = os.pathsep.join(filter(None, sys.path))
+    with tempfile.TemporaryDirectory(prefix="samplekit-", ignore_cleanup_errors=True) as folder:
+        request, results, errors = (Path(folder) / part for part in ("request", "results", "errors"))
+        request.write_bytes(pickled)
+        results.touch()
+        with errors.open("wb") as stderr:
+            process = psutil.Popen(
+                [sys.executable, "-X", "faulthandler", "-m", __name__, str(request), str(results)],
+                stdin=subprocess.DEVNULL,
+                stdout=stdout,
+                stderr=stderr,
+                env={**os.environ, "PYTHONPATH": path, **(environment or {})},
+            )
+        try:
+            with results.open("rb") as stream:
+                problem = yield from _watch(process, stream, seconds, memory)
+        finally:
+            _kill(process)
+        if problem:
+            raise NoResultError(problem, _explanation(errors))
 
 
-def _whole_results(stream: BinaryIO) -> Iterator[Any]:
+def _watch(process: psutil.Popen, stream: IO[bytes], seconds: float, memory: float) -> Generator[Any, None, str]:
+    """Yield results until the process ends or exceeds a limit; return what went wrong, empty if nothing did."""
+    since = time.monotonic()
+    alive, finished, problem = True, False, ""
+    while alive and not problem:
+        # Whether it is alive is asked before the file is read: results that are sent in between are read as well.
+        alive = process.poll() is None
+        for result in _whole_results(stream):
+            since, finished = time.monotonic(), result is None
+            if not finished:
+                yield result
+        if time.monotonic() - since > seconds:
+            problem = f"hangs: no answer in {seconds:g} s"
+        elif memory < math.inf and _memory_of(process) > memory:
+            problem = f"takes more than {memory / 2**30:.3g} GiB of memory"
+        elif alive:
+            time.sleep(_POLL)
+        elif process.returncode < 0:
+            problem = f"crashes the interpreter ({signal.Signals(-process.returncode).name})"
+        else:
+            problem = f"ends the interpreter (status {process.returncode})"
+    # What goes wrong after the last result, while the interpreter shuts down, is no fault of the function.
+    return "" if finished else problem
+
+
+def _whole_results(stream: IO[bytes]) -> Iterator[Any]:
     """Yield the results that have been written since the last call, without one that is still being written."""
     while True:
         place = stream.tell()
@@ -146,7 +135,7 @@ def _whole_results(stream: BinaryIO) -> Iterator[Any]:
             return
 
 
-def _memory_of(process: subprocess.Popen[bytes]) -> int:
+def _memory_of(process: psutil.Popen) -> int:
     """Return the resident bytes of a process and what it has started, as far as these still run."""
     memory = 0
     for each in _family(process):
@@ -155,29 +144,25 @@ def _memory_of(process: subprocess.Popen[bytes]) -> int:
     return memory
 
 
-def _kill(process: subprocess.Popen[bytes]) -> None:
+def _kill(process: psutil.Popen) -> None:
     """End a process and what it has started, by their ids."""
-    family = _family(process)
-    process.kill()
-    process.wait()
-    for each in family:
+    for each in _family(process):
         with contextlib.suppress(psutil.Error):
             each.kill()
+    process.wait()
 
 
-def _family(process: subprocess.Popen[bytes]) -> list[psutil.Process]:
-    try:
-        parent = psutil.Process(process.pid)
-        return [parent, *parent.children(recursive=True)]
-    except psutil.Error:
-        return []
+def _family(process: psutil.Popen) -> list[psutil.Process]:
+    with contextlib.suppress(psutil.Error):
+        return [process, *process.children(recursive=True)]
+    return []
 
 
-def _last_line(errors: Path) -> str:
-    """Return the line that explains most: the first one of faulthandler after a crash, otherwise the last one."""
+def _explanation(errors: Path) -> str:
+    """Return the line that explains most, behind a colon: of faulthandler after a crash, otherwise the last one."""
     lines = [line.strip() for line in errors.read_text(errors="replace").splitlines() if line.strip()]
     fatal = [line for line in lines if line.startswith("Fatal Python error")]
-    return (fatal or lines or [""])[-1][:200]
+    return f": {(fatal or lines)[-1][:200]}" if lines else ""
 
 
 def main(request: str, results: str) -> None:

@@ -5,45 +5,39 @@ It is imported in every run of pytest in its environment: its top level imports 
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
-_CASES = pytest.StashKey[list[Any]]()
+if TYPE_CHECKING:
+    from samplekit.testing._suite import Case
+
+_CASES = pytest.StashKey["list[Case]"]()
 FIXTURE = "samplekit_case"
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     """Add the options that name what is judged."""
     group = parser.getgroup("samplekit", "conformance of samplers and scenes")
-    group.addoption(
-        "--sampler",
-        action="append",
-        default=[],
-        metavar="NAME",
-        help="judge this sampler, such as halton+owen (may be repeated)",
-    )
-    group.addoption(
-        "--scene", action="append", default=[], metavar="NAME", help="judge this scene, such as disk:radius=0.4"
-    )
+    for kind, example in (("sampler", "halton+owen"), ("scene", "disk:radius=0.4")):
+        text = f"judge this {kind}, such as {example} (may be repeated)"
+        group.addoption(f"--{kind}", action="append", default=[], metavar="NAME", help=text)
     group.addoption("--samplekit-quick", action="store_true", help="smaller samples, no other processes: seconds")
 
 
 def pytest_configure(config: pytest.Config) -> None:
     """Look up what is judged: a wrong name ends in one line, before any test is collected."""
-    samplers, scenes = config.getoption("--sampler"), config.getoption("--scene")
+    asked: dict[Any, list[str]] = {kind: config.getoption(f"--{kind}") for kind in ("sampler", "scene")}
     config.stash[_CASES] = []
-    if not samplers and not scenes:
+    if not any(asked.values()):
         return
     from samplekit._errors import SamplekitError
-    from samplekit.testing._cases import cases_of
+    from samplekit.testing._suite import make_cases
 
-    quick = config.getoption("--samplekit-quick")
     try:
-        for name in dict.fromkeys(samplers):
-            config.stash[_CASES] += cases_of(name, "sampler", quick=quick)
-        for name in dict.fromkeys(scenes):
-            config.stash[_CASES] += cases_of(name, "scene", quick=quick)
+        for kind, names in asked.items():
+            for name in dict.fromkeys(names):
+                config.stash[_CASES] += make_cases(name, kind, quick=config.getoption("--samplekit-quick"))
     except SamplekitError as error:
         raise pytest.UsageError(str(error)) from None
 
@@ -61,15 +55,17 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     metafunc.parametrize(FIXTURE, [_parameter(case) for case in cases] or [nothing], indirect=True)
 
 
-def _parameter(case: Any) -> Any:
+def _parameter(case: Case) -> Any:
     marks = [pytest.mark.xfail(reason=case.expected, strict=True)] if case.expected else []
-    return pytest.param(case, id=case.id, marks=marks)
+    recipe = case.subject.recipe
+    name = recipe if isinstance(recipe, str) else recipe.name
+    return pytest.param(case, id=f"{name}-{case.check.name}", marks=marks)
 
 
 @pytest.fixture
 def samplekit_case(request: pytest.FixtureRequest) -> Any:
     """Return a check: calling it passes, fails with a counter-example, or is skipped with a reason."""
-    case = request.param
+    case: Case = request.param
 
     def run() -> None:
         # Lines of samplekit's own code do not help the author of a sampler.
@@ -77,9 +73,9 @@ def samplekit_case(request: pytest.FixtureRequest) -> Any:
         from samplekit.testing._result import CheckFailed, NotApplicable
 
         try:
-            case()
+            case.check.function(case.subject)
         except NotApplicable as nothing:
-            # A check that is declared to fail and has nothing to judge did not fail: this is as strict as the command.
+            # A check that is declared to fail, and has nothing to judge, did not fail: the command is as strict.
             if not case.expected:
                 pytest.skip(str(nothing))
         except CheckFailed as failed:

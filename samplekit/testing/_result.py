@@ -1,9 +1,10 @@
-"""Results: what a check is, how it says that a property does not hold, and the outcome of one check."""
+"""What a check is, how it reports that a property does not hold, and the outcome of one check."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal
+from itertools import zip_longest
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -13,9 +14,9 @@ if TYPE_CHECKING:
 
 Kind = Literal["sampler", "scene"]
 Status = Literal["passed", "failed", "not applicable", "expected failure", "unexpected pass"]
-STATUSES: tuple[Status, ...] = ("passed", "failed", "not applicable", "expected failure", "unexpected pass")
+STATUSES: tuple[Status, ...] = get_args(Status)
 BROKEN: tuple[Status, ...] = ("failed", "unexpected pass")
-"""The statuses that make a run fail: a declared failure that does not happen is one of them."""
+"""The statuses that make a run fail. A check that is declared to fail, and passes, makes it fail too."""
 
 _POINTS_SHOWN = 4
 
@@ -39,7 +40,10 @@ class CounterExample:
     box
         Low and high edge, along each of ``axes``, of the cell that holds too many points or too few.
     points
-        The whole set, float64[N, D], for a picture; None if it is too large or if the failure is not in one set.
+        The whole set, or the slice of it that was judged, float64[n, D], for a picture; None if it is too large or if
+        the failure is not in one set.
+    start
+        Index in the set of the first of ``points``.
     """
 
     sampler: str
@@ -52,27 +56,28 @@ class CounterExample:
     axes: tuple[int, ...] = ()
     box: tuple[tuple[float, float], ...] = ()
     points: NDArray[np.float64] | None = None
+    start: int = 0
 
     def __str__(self) -> str:
         where = f"sampler {self.sampler}, count {self.count}, dims {self.dims}, seed {self.seed}"
         text = f"{where}, realisation {self.realization}"
         shown = [
             f"point {index}" + (f" at ({', '.join(repr(float(x)) for x in place)})" if place else "")
-            for index, place in zip(self.indices, self.coordinates or ((),) * len(self.indices), strict=True)
+            for index, place in zip_longest(self.indices, self.coordinates)
         ]
         more = f" and {len(shown) - _POINTS_SHOWN} more" if len(shown) > _POINTS_SHOWN else ""
         return text + (f": {'; '.join(shown[:_POINTS_SHOWN])}{more}" if shown else "")
 
     def as_json(self) -> dict[str, Any]:
         """Return plain data, without the points."""
-        data = {name: value for name, value in vars(self).items() if name != "points"}
+        data = {name: value for name, value in vars(self).items() if name not in ("points", "start")}
         # Many readers of JSON round integers beyond 2^53, and JSON has no NaN, which a coordinate never written is.
         data["seed"] = str(self.seed)
         data["coordinates"] = [[x if x == x else "nan" for x in map(float, place)] for place in self.coordinates]
         return data
 
 
-class CheckFailed(Exception):  # noqa: N818 - it is a verdict, not an error of the program
+class CheckFailed(Exception):  # noqa: N818 - the sampler is wrong, not the program
     """A property does not hold.
 
     Parameters
@@ -95,7 +100,7 @@ class NotApplicable(Exception):  # noqa: N818
 
 @dataclass(frozen=True)
 class Check:
-    """A check: a plain function, and what it requires of a declaration.
+    """A check: a plain function, with its place in the suite.
 
     Attributes
     ----------
@@ -105,58 +110,33 @@ class Check:
         Its place in the suite, from 1.
     kind
         What it judges: ``"sampler"`` or ``"scene"``.
-    summary, tolerance
-        One line each, for reports.
-    requires
-        Returns the reason why the check does not apply to a declaration; empty if it does apply.
+    summary
+        One line for reports.
     function
-        Called with the subject; raises CheckFailed.
+        Called with the subject. It raises CheckFailed if the property does not hold, and NotApplicable if there is
+        nothing to judge.
     """
 
     name: str
     number: int
     kind: Kind
     summary: str
-    tolerance: str
-    requires: Callable[[Any], str]
     function: Callable[[Any], None]
 
-    def __call__(self, subject: Any) -> None:
-        """Judge a subject.
 
-        Raises
-        ------
-        CheckFailed
-            The property does not hold.
-        NotApplicable
-            There is nothing to judge.
-        """
-        reason = self.requires(subject.spec)
-        if reason:
-            raise NotApplicable(reason)
-        self.function(subject)
-
-
-def conformance_check(
-    name: str,
-    number: int,
-    *,
-    tolerance: str = "exact",
-    kind: Kind = "sampler",
-    requires: Callable[[Any], str] = lambda _: "",
-) -> Callable[[Callable[[Any], None]], Check]:
+def conformance_check(name: str, number: int, *, kind: Kind = "sampler") -> Callable[[Callable[[Any], None]], Check]:
     """Turn a function into a check; the first line of its docstring is the summary.
 
     Parameters
     ----------
-    name, number, tolerance, kind, requires
+    name, number, kind
         The attributes of the :class:`Check`.
     """
 
     def decorate(function: Callable[[Any], None]) -> Check:
         # Python drops docstrings if it is asked to (-OO).
         summary = next(iter((function.__doc__ or name).strip().splitlines()))
-        return Check(name, number, kind, summary, tolerance, requires, function)
+        return Check(name, number, kind, summary, function)
 
     return decorate
 

@@ -40,11 +40,14 @@ def normal_threshold(tests: int) -> float:
     return -NormalDist().inv_cdf(CHECK_RATE / tests / 2.0)
 
 
-def student_threshold(tests: int, freedom: int) -> float:
-    """Return the same as ``normal_threshold`` for a standard deviation estimated with ``freedom`` degrees."""
+def student_threshold(tests: int, freedom: int, rate: float = CHECK_RATE) -> float:
+    """Return the same as ``normal_threshold`` for a standard deviation estimated with ``freedom`` degrees.
+
+    ``rate`` is the false-alarm rate of all tests together.
+    """
     from scipy.special import stdtrit
 
-    return float(-stdtrit(freedom, CHECK_RATE / tests / 2.0))
+    return float(-stdtrit(freedom, rate / tests / 2.0))
 
 
 def chi_square_threshold(tests: int, freedom: int) -> float:

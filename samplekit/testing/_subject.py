@@ -1,48 +1,46 @@
-"""The subject of the checks: a sampler or a scene. It counts what is drawn, and trusts nothing that it is given."""
+"""The subject of the checks: a sampler or a scene. It counts the points that are drawn, and trusts no plugin."""
 
 from __future__ import annotations
 
+import heapq
 import math
 import time
+from bisect import bisect_left
+from collections.abc import Iterator
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from itertools import takewhile
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from samplekit._bases.realizations import Realizations
+from samplekit._configured.sampler import ConfiguredSampler
 from samplekit._configured.sampler import sampler as configured_sampler
+from samplekit._configured.scene import ConfiguredScene
 from samplekit._configured.scene import scene as configured_scene
 from samplekit._errors import InvalidPointsError, SamplekitError, UsageError
 from samplekit._specs import SamplerSpec, SceneSpec
-from samplekit.testing._declared import allowed_near
-from samplekit.testing._elsewhere import points_elsewhere
-from samplekit.testing._forced_bits import Extreme, forced_extremes
-from samplekit.testing._result import CheckFailed, CounterExample
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from samplekit._configured.sampler import ConfiguredSampler
-    from samplekit._configured.scene import ConfiguredScene
-    from samplekit.testing._result import Kind
+from samplekit.testing._forced_bits import forced_extremes
+from samplekit.testing._result import CheckFailed, CounterExample, Kind
 
 Array = NDArray[np.float64]
 Recipe = str | SamplerSpec | SceneSpec
 """What a user writes (``"sobol+owen"``), or the declaration of a sampler or scene that is not installed."""
 
 _LARGEST_KEPT = 1 << 14
+_LARGEST_JUDGED = 1 << 17
 _SMALL = 4096
 _MOST_GRID_DIMS = 12
 """A grid of two cells along each of this many dimensions has 4096 cells."""
-_LARGEST_COUNTS = ((0.02, 1 << 17), (0.2, 1 << 12), (1.0, 1 << 10))
+_LARGEST_COUNTS = ((0.02, _LARGEST_JUDGED), (0.2, 1 << 12), (1.0, 1 << 10))
 """Seconds that 256 points take at most, and the largest set that is then judged; work may grow as the square."""
 _SECONDS_A_REQUEST = 1.5
 _SECONDS_A_QUICK_REQUEST = 0.15
 
 
 class Subject:
-    """What all subjects have.
+    """What samplers and scenes that are judged have in common.
 
     Parameters
     ----------
@@ -58,7 +56,7 @@ class Subject:
     drawn
         Number of points drawn so far.
     hints, notes
-        Of the check that runs: advice that is no failure, and remarks on how the subject was judged.
+        Lists to which a check adds advice that is no failure, and remarks on how the subject was judged.
     """
 
     def __init__(self, recipe: Recipe, configured: ConfiguredSampler | ConfiguredScene, *, quick: bool) -> None:
@@ -92,10 +90,13 @@ class SceneSubject(Subject):
 
         The box is left, width, top, height. Each sample is a pixel of one sample: a sum of one value is that value.
         """
-        self.drawn += u.shape[1]
-        tile = np.ascontiguousarray(u.T[:, :, None])
-        out = np.full(u.shape[1], np.nan)
-        self.scene.sums(tile, np.repeat(box[:, None], u.shape[1], axis=1), out)
+        return self.sums(u.T[:, :, None], np.repeat(box[:, None], u.shape[1], axis=1))
+
+    def sums(self, tile: Array, boxes: Array) -> Array:
+        """Return the sum float64[P] over the samples of each pixel of a tile; the scene gets copies of the arrays."""
+        self.drawn += tile.shape[0] * tile.shape[2]
+        out = np.full(len(tile), np.nan)
+        self.scene.sums(tile.copy(), boxes.copy(), out)
         return out
 
     def mean(self, u: Array, box: Array) -> float:
@@ -106,16 +107,13 @@ class SceneSubject(Subject):
 class SamplerSubject(Subject):
     """A sampler that is judged; see :class:`Subject`."""
 
+    recipe: str | SamplerSpec
     spec: SamplerSpec
 
     def __init__(self, recipe: str | SamplerSpec, *, quick: bool = False) -> None:
         self.sampler = configured_sampler(recipe)
         super().__init__(recipe, self.sampler, quick=quick)
         self._prepared: set[tuple[int, int]] = set()
-
-    def hint(self, text: str) -> None:
-        """Add advice that is no failure."""
-        self.hints.append(text)
 
     def dims(self, wanted: int) -> int:
         """Return the declared number of dimensions nearest to ``wanted``."""
@@ -127,9 +125,9 @@ class SamplerSubject(Subject):
         return count <= self.spec.largest_index + 1 and self.spec.counts.allows(count, dims)
 
     def makes(self, count: int, dims: int) -> bool:
-        """Tell whether the sampler accepts a request: an orthogonal array of s^2 points has at most s + 1 dimensions.
+        """Tell whether the sampler accepts a request: it may refuse some of what the rule for counts allows.
 
-        The check of limits judges what it may not refuse.
+        An orthogonal array of s^2 points has at most s + 1 dimensions. The check ``limits`` judges refusals.
         """
         try:
             self.sampler.check(count, dims)
@@ -138,42 +136,48 @@ class SamplerSubject(Subject):
         return True
 
     def counts(self, *wanted: int, dims: int) -> list[int]:
-        """Return the declared count nearest to each wanted one, except those that take a slow sampler too long."""
-        affordable = [count for count in wanted if count <= 256 or count <= self.largest_count]
-        return self.nearest_counts(affordable or [256], dims)
+        """Return for each wanted count the nearest that is declared and that the sampler makes: rising, each once.
 
-    def nearest_counts(self, wanted: list[int], dims: int) -> list[int]:
-        """Return for each wanted count the nearest that is declared and that the sampler makes: rising, each once."""
-        most = self.spec.largest_index + 1
-        near = {
-            allowed_near(self.spec.counts, min(count, most), dims, lambda count: self.makes(count, dims))
-            for count in wanted
-        }
-        return sorted(count for count in near if count is not None and count <= most)
+        Counts that would take a slow sampler too long are left out.
+        """
+        affordable = [count for count in wanted if count <= 256 or count <= self.largest_count]
+        near = (self._nearest_count(min(count, self.spec.largest_index + 1), dims) for count in affordable or [256])
+        return sorted({count for count in near if count is not None})
+
+    def _nearest_count(self, wanted: int, dims: int) -> int | None:
+        """Return the nearest count up to 2^17, the smaller of two that are as near; None if there is none."""
+        rising = takewhile(lambda count: count <= _LARGEST_JUDGED, self.spec.counts.rising(wanted, dims))
+        falling = self._falling(min(wanted, _LARGEST_JUDGED) + 1, dims)
+        nearest_first = heapq.merge(falling, rising, key=lambda count: abs(count - wanted))
+        return next((count for count in nearest_first if self.makes(count, dims)), None)
+
+    def _falling(self, count: int, dims: int) -> Iterator[int]:
+        below = self.spec.counts.below(count, dims)
+        while below is not None:
+            yield below
+            below = self.spec.counts.below(below, dims)
 
     def most_dims(self, limit: int) -> int:
         """Return the largest number of dimensions up to ``limit`` in which it makes some count up to 4096.
 
-        Of a grid over all dimensions: those in which the grid has two cells along each.
+        A sampler whose grid spans all dimensions is asked for at most 12: two cells along each of them.
         """
         high = self.dims(limit)
         if self.spec.counts.depends_on_dims:
             return min(high, max(self.spec.dimensions[0], _MOST_GRID_DIMS))
         counts = [count for count in range(_SMALL, 0, -1) if self.spec.counts.allows(count, high)]
-        low = min(self.dims(1), high)
-        while low < high:
-            middle = (low + high + 1) // 2
-            if any(self.makes(count, middle) for count in counts):
-                low = middle
-            else:
-                high = middle - 1
-        return low
+        low = self.dims(1)
+
+        def refuses_all(dims: int) -> bool:
+            return not any(self.makes(count, dims) for count in counts)
+
+        return low + bisect_left(range(low + 1, high + 1), True, key=refuses_all)
 
     @cached_property
     def largest_count(self) -> int:
         """The largest set that is judged: smaller for a sampler that takes long for 256 points."""
         dims = self.dims(2)
-        small, count = (self.nearest_counts([wanted], dims)[0] for wanted in (16, 256))
+        small, count = (self.counts(wanted, dims=dims)[0] for wanted in (16, 256))
         # Kernels are compiled for the small set; what is prepared for each count is counted in part.
         self.sets(small, dims, 1)
         began = time.process_time()
@@ -221,7 +225,7 @@ class SamplerSubject(Subject):
         try:
             sampler.fill(out, realizations, count, start)
         except InvalidPointsError:
-            # Rendering refuses values outside [0, 1); here they are evidence.
+            # Rendering refuses values outside [0, 1); here the checks look for them.
             pass
         except SamplekitError as error:
             refusal = "refuses what it declares: " if isinstance(error, UsageError) else ""
@@ -267,7 +271,7 @@ class SamplerSubject(Subject):
         start: int = 0,
         indices: tuple[int, ...] = (),
         axes: tuple[int, ...] = (),
-        box: tuple[tuple[float, float], ...] = (),
+        **details: Any,
     ) -> CounterExample:
         """Return a counter-example in row ``row`` of ``values`` float64[R, D, n].
 
@@ -282,20 +286,21 @@ class SamplerSubject(Subject):
             indices=tuple(start + i for i in indices),
             coordinates=tuple(tuple(float(x) for x in points[i, list(axes) or slice(None)][:8]) for i in indices),
             axes=axes,
-            box=box,
             points=points.copy() if points.size <= _LARGEST_KEPT else None,
+            start=start,
+            **details,
         )
 
     def affordable(self, wanted: int, count: int, dims: int, least: int = 64) -> int:
         """Return ``wanted`` realisations, or a power of four fewer where the sampler is slow; a note says so.
 
-        The ladder keeps results comparable: two machines differ only where one is four times slower. The time is that
-        of the processor, so that a busy machine judges as an idle one does.
+        In steps of four, two machines give the same results unless one is about four times slower. The time is that of
+        the processor, so that a busy machine gives the results of an idle one.
         """
         self.sets(count, dims)
         seconds = self._seconds_a_set(8, count, dims)
         if seconds < 1e-3:
-            # So few sets measure what a call costs, not what a set costs.
+            # The time of so few sets is that of the calls, not that of the sets.
             seconds = self._seconds_a_set(256, count, dims)
         budget = _SECONDS_A_QUICK_REQUEST if self.quick else _SECONDS_A_REQUEST
         realizations = wanted
@@ -311,14 +316,9 @@ class SamplerSubject(Subject):
         return (time.process_time() - began) / sets
 
     @cached_property
-    def extremes(self) -> list[Extreme]:
+    def extremes(self) -> list[tuple[str, Array]]:
         """Points made with all random bits ones, and zeros; none in a quick run. See :func:`forced_extremes`."""
         return [] if self.quick else forced_extremes(self)
-
-    @cached_property
-    def elsewhere(self) -> dict[str, Array | str]:
-        """Points made in another process; see :func:`points_elsewhere`."""
-        return points_elsewhere(self)
 
 
 def make_subject(recipe: Recipe, kind: Kind, *, quick: bool = False) -> SamplerSubject | SceneSubject:

@@ -2,32 +2,34 @@
 
 from __future__ import annotations
 
-import difflib
 import pkgutil
 import time
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from importlib import import_module
-from typing import TYPE_CHECKING
+from typing import NamedTuple, get_args
 
-from samplekit._errors import UsageError
+from samplekit._errors import UnknownNameError, UsageError
 from samplekit._quoting import reason
+from samplekit._specs import SamplerSpec, SceneSpec
 from samplekit.testing import _checks
-from samplekit.testing._result import Check, CheckFailed, NotApplicable, Outcome
-from samplekit.testing._subject import make_subject
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
-
-    from samplekit._specs import SamplerSpec, SceneSpec
-    from samplekit.testing._result import Kind
-    from samplekit.testing._subject import Recipe, Subject
+from samplekit.testing._result import Check, CheckFailed, Kind, NotApplicable, Outcome
+from samplekit.testing._subject import Recipe, Subject, make_subject
 
 _MODULES = [import_module(f"{_checks.__name__}.{each.name}") for each in pkgutil.iter_modules(_checks.__path__)]
 _FOUND = [each for module in _MODULES for each in vars(module).values() if isinstance(each, Check)]
-CHECKS, SCENE_CHECKS = (
-    tuple(sorted((check for check in _FOUND if check.kind == kind), key=lambda check: check.number))
-    for kind in ("sampler", "scene")
-)
-SUITES: Mapping[Kind, tuple[Check, ...]] = {"sampler": CHECKS, "scene": SCENE_CHECKS}
+SUITES: Mapping[Kind, list[Check]] = {
+    kind: sorted((check for check in _FOUND if check.kind == kind), key=lambda check: check.number)
+    for kind in get_args(Kind)
+}
+"""The checks of samplers, and those of scenes."""
+
+
+class Case(NamedTuple):
+    """One check of one subject; ``expected`` is the reason why it is declared to fail, empty if it is not."""
+
+    subject: Subject
+    check: Check
+    expected: str
 
 
 def check_sampler(
@@ -69,29 +71,39 @@ def run_checks(recipe: Recipe, kind: Kind, *, quick: bool, only: Sequence[str] |
     UsageError
         An unknown name, option or check; raised before any check runs.
     """
-    subject = make_subject(recipe, kind, quick=quick)
-    expected = expected_failures(subject.spec, SUITES[kind])
-    chosen = chosen_checks(SUITES[kind], only)
-    return (_run_check(check, subject, expected.get(check.name, "")) for check in chosen)
+    return map(_run_check, make_cases(recipe, kind, quick=quick, only=only))
 
 
-def chosen_checks(checks: Sequence[Check], only: Sequence[str] | None) -> list[Check]:
-    """Return the checks with the given names, in their order; all of them if ``only`` is None.
+def make_cases(recipe: Recipe, kind: Kind, *, quick: bool, only: Sequence[str] | None = None) -> list[Case]:
+    """Return the cases of one subject, which share what they have drawn; parameters as for :func:`check_sampler`.
 
     Raises
     ------
     UsageError
-        A name is not that of a check.
+        An unknown name, option or check, or a declaration that expects the failure of an unknown check.
     """
-    known = dict.fromkeys(check.name for check in checks)
+    subject = make_subject(recipe, kind, quick=quick)
+    expected = _expected_failures(subject.spec, SUITES[kind])
+    return [Case(subject, check, expected.get(check.name, "")) for check in choose_checks(SUITES[kind], only)]
+
+
+def choose_checks(checks: Sequence[Check], only: Collection[str] | None) -> list[Check]:
+    """Return the checks with the given names, in the order of the suite; all of them if ``only`` is None.
+
+    Raises
+    ------
+    UnknownNameError
+        No check has one of the names.
+    """
+    known = {check.name for check in checks}
     for name in only or ():
         if name not in known:
-            raise UsageError(f"unknown check {name!r}: the checks are {', '.join(known)}")
+            raise UnknownNameError("check", name, known)
     return [check for check in checks if only is None or check.name in only]
 
 
-def expected_failures(spec: SamplerSpec | SceneSpec, checks: Sequence[Check]) -> Mapping[str, str]:
-    """Return the failures that a declaration expects: reasons by the name of the check.
+def _expected_failures(spec: SamplerSpec | SceneSpec, checks: Sequence[Check]) -> Mapping[str, str]:
+    """Return the failures that a declaration expects: the reason for each, by the name of the check.
 
     Raises
     ------
@@ -99,25 +111,24 @@ def expected_failures(spec: SamplerSpec | SceneSpec, checks: Sequence[Check]) ->
         It names a check that does not exist, or gives no reason.
     """
     declared: Mapping[str, str] = getattr(spec, "expected_failures", {})
-    known = [check.name for check in checks]
+    try:
+        choose_checks(checks, declared)
+    except UnknownNameError as error:
+        raise UsageError(f"{spec.name}: expected_failures: {error}") from None
     for name, why in declared.items():
-        if name not in known:
-            near = difflib.get_close_matches(name, known, n=1, cutoff=0.5)
-            hint = f"did you mean {near[0]}?" if near else f"the checks are {', '.join(known)}"
-            raise UsageError(f"{spec.name}: expected_failures names the unknown check {name!r}: {hint}")
-        if not str(why).strip():
+        if not why.strip():
             raise UsageError(f"{spec.name}: expected_failures gives no reason for {name!r}")
     return declared
 
 
-def _run_check(check: Check, subject: Subject, expected: str) -> Outcome:
-    """Run one check; ``expected`` is the reason why it is declared to fail."""
+def _run_check(case: Case) -> Outcome:
+    subject, check, expected = case
     outcome = Outcome(subject.text, check.name, "passed")
     subject.hints, subject.notes = outcome.hints, outcome.notes
     drawn, began = subject.drawn, time.perf_counter()
     surprise = "it passed"
     try:
-        check(subject)
+        check.function(subject)
     except CheckFailed as failed:
         outcome.status, outcome.message, outcome.example = "failed", failed.message, failed.example
     except NotApplicable as nothing:

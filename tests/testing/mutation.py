@@ -14,12 +14,14 @@ from typing import TYPE_CHECKING
 from mutants import MUTANTS
 
 from samplekit.testing._result import BROKEN, Outcome
-from samplekit.testing._suite import CHECKS, check_sampler
+from samplekit.testing._suite import SUITES, check_sampler
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from mutants import Mutant
+
+CHECKS = SUITES["sampler"]
 
 
 def caught(mutant: type[Mutant], outcomes: Sequence[Outcome]) -> bool:

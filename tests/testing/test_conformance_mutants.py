@@ -4,7 +4,7 @@ import pytest
 from mutants import MUTANTS
 from mutation import caught, run_mutant, table
 
-from samplekit.testing._suite import CHECKS
+from samplekit.testing._suite import SUITES
 
 pytestmark = pytest.mark.slow
 
@@ -25,7 +25,7 @@ def test_a_mutant_is_caught(mutant):
 def test_there_are_enough_and_nearly_every_check_has_one():
     assert len(MUTANTS) >= 25
     # What only an installed plugin can do wrong is in test_conformance_command.
-    assert {check.name for check in CHECKS} - {mutant.caught_by for mutant in MUTANTS} == {"light-import"}
+    assert {check.name for check in SUITES["sampler"]} - {mutant.caught_by for mutant in MUTANTS} == {"light-import"}
 
 
 def test_the_table_has_a_row_a_mutant():

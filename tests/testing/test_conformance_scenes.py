@@ -8,7 +8,7 @@ import samplekit
 from samplekit._registry import BUILTIN, registry
 from samplekit.testing import check_scene
 from samplekit.testing._result import broken
-from samplekit.testing._suite import SCENE_CHECKS
+from samplekit.testing._suite import SUITES
 
 pytestmark = pytest.mark.slow
 
@@ -18,7 +18,7 @@ NAMES = [name for name, offer in registry().all("scene").items() if offer.plugin
 @pytest.mark.parametrize("name", NAMES)
 def test_our_scenes_conform(name):
     # Lattices in four dimensions take seconds: `samplekit check` runs them.
-    only = None if len(samplekit.scene(name).needs) == 1 else [c.name for c in SCENE_CHECKS if c.name != "reference"]
+    only = None if len(samplekit.scene(name).needs) == 1 else [c.name for c in SUITES["scene"] if c.name != "reference"]
     outcomes = check_scene(name, quick=True, only=only)
     assert not broken(outcomes), [(each.check, each.message) for each in broken(outcomes)]
 

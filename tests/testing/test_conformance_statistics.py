@@ -52,8 +52,8 @@ def test_integrals_are_those_of_the_integrands():
     """Against the midpoint rule, whose error on 400 x 400 points is below 1e-3 for steps."""
     x, y = np.meshgrid((np.arange(400) + 0.5) / 400, (np.arange(400) + 0.5) / 400)
     grid = np.stack([x.ravel(), y.ravel()])[None]
-    for name, function, integral in integrands(2):
-        assert function(grid).mean() == pytest.approx(integral, abs=1.5e-3), name
+    for each in integrands(2):
+        assert each.function(grid).mean() == pytest.approx(each.integral, abs=1.5e-3), each.name
 
 
 def test_correlations_are_pearsons():

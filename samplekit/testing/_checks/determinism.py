@@ -1,10 +1,12 @@
-"""The same request gives the same points, whatever was asked before and wherever; another seed gives others."""
+"""The same request gives the same points, whatever was asked before, wherever, and as a part of whatever.
+
+Another seed gives other points, a prefix of a progressive set is a set of its own, and a slice is that part of the set.
+"""
 
 from __future__ import annotations
 
 import itertools
 from concurrent.futures import ThreadPoolExecutor
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,34 +14,36 @@ from samplekit._bases.realizations import Realizations
 from samplekit._configured.sampler import sampler as configured_sampler
 from samplekit.testing._elsewhere import judge_elsewhere
 from samplekit.testing._judge import judge_equal
-from samplekit.testing._result import CheckFailed, conformance_check
-
-if TYPE_CHECKING:
-    from samplekit.testing._subject import SamplerSubject
+from samplekit.testing._result import CheckFailed, NotApplicable, conformance_check
+from samplekit.testing._subject import SamplerSubject
 
 _REALIZATIONS = 70
+_POWERS = tuple(n for k in range(1, 13) for n in (2**k - 1, 2**k, 2**k + 1))
+_BASES = tuple(b**k for b in (3, 5, 7) for k in range(1, 8) if b**k < 5000)
+_LENGTHS = (1, 3, 16, 100, 1000, *_POWERS, *_BASES)
 
 
-@conformance_check("determinism", 3, tolerance="bit for bit")
+@conformance_check("determinism", 3)
 def check_determinism(subject: SamplerSubject) -> None:
-    """The same points when asked again, in another order, one by one, in chunks, in another thread and process."""
+    """The points are the same, bit for bit, again, in another order, in chunks, in another thread and process."""
     dims = subject.dims(3)
     for count in subject.counts(1, 7, 64, 100, dims=dims):
         _judge_repeated_requests(subject, count, dims)
     if not subject.quick:
-        judge_elsewhere(subject, "recipe", "in another process")
+        judge_elsewhere(subject, subject.recipe, "in another process")
 
 
 def _judge_repeated_requests(subject: SamplerSubject, count: int, dims: int) -> None:
     asked = Realizations.of_trials(0, _REALIZATIONS, 0)
     whole = subject.fill(asked, count, dims)
     judge_equal(subject, whole, subject.fill(asked, count, dims), count, "when asked again")
-    _ask_for_something_else(subject, count, dims)
+    for other in subject.counts(count + 1, 2 * count, dims=dims):
+        subject.sets(other, dims, 3, seed=9, first=5)
+    subject.sets(subject.counts(count, dims=subject.dims(1))[0], subject.dims(1), 2, seed=1)
     judge_equal(subject, whole, subject.fill(asked, count, dims), count, "after other requests")
-    fresh = subject.fill(asked, count, dims, sampler=configured_sampler(subject.recipe))  # type: ignore[arg-type]
+    fresh = subject.fill(asked, count, dims, sampler=configured_sampler(subject.recipe))
     judge_equal(subject, whole, fresh, count, "from a fresh sampler")
-    backwards = np.arange(_REALIZATIONS - 1, -1, -1)
-    reverse = subject.fill(Realizations.of_pixels(backwards, np.zeros_like(backwards), 0), count, dims)[::-1]
+    reverse = subject.fill(asked[::-1], count, dims)[::-1]
     judge_equal(subject, whole, reverse, count, "with the realisations in reverse order")
     for chunk in (1, 7, 64):
         pieces = [subject.fill(asked[i : i + chunk], count, dims) for i in range(0, _REALIZATIONS, chunk)]
@@ -49,12 +53,6 @@ def _judge_repeated_requests(subject: SamplerSubject, count: int, dims: int) -> 
     judge_equal(subject, whole, in_a_thread, count, "in another thread")
     if not (asked.keys == Realizations.of_trials(0, _REALIZATIONS, 0).keys).all():
         raise CheckFailed("changes the keys of the realisations that it was given")
-
-
-def _ask_for_something_else(subject: SamplerSubject, count: int, dims: int) -> None:
-    for other in subject.counts(count + 1, 2 * count, dims=dims):
-        subject.sets(other, dims, 3, seed=9, first=5)
-    subject.sets(subject.counts(count, dims=subject.dims(1))[0], subject.dims(1), 2, seed=1)
 
 
 @conformance_check("seed", 4)
@@ -76,3 +74,41 @@ def check_seed(subject: SamplerSubject) -> None:
                 f"seeds {first} and {second} give the same points, though it is declared randomised",
                 subject.example(made[first], count, seed=first, indices=(0,)),
             )
+
+
+@conformance_check("prefix", 5)
+def check_prefix(subject: SamplerSubject) -> None:
+    """The first N of M points are the set of N points, for every N at which prefixes are declared to be sets."""
+    progressive = subject.spec.progressive
+    if progressive is None:
+        raise NotApplicable("it is not declared progressive")
+    dims = subject.dims(3)
+    lengths = [n for n in sorted(set(_LENGTHS)) if subject.allows(n, dims) and progressive.allows(n, dims)]
+    for length in lengths[:: 3 if subject.quick else 1]:
+        short = subject.sets(length, dims, 2)
+        for count in sorted({length + 1, 2 * length, 2 * length + 1, 1000, 4096}):
+            if count > length and subject.allows(count, dims):
+                long = subject.sets(count, dims, 2)
+                judge_equal(subject, short, long[:, :, :length], length, f"as a prefix of {count} points")
+
+
+@conformance_check("slices", 6)
+def check_slices(subject: SamplerSubject) -> None:
+    """Points start to stop are that slice of the whole set."""
+    dims = subject.dims(3)
+    realizations = Realizations.of_trials(0, 3, 0)
+    for wanted in (7, 64, 100) if subject.quick else (7, 64, 100, 1500, 2100):
+        count = subject.counts(wanted, dims=dims)[0]
+        whole = subject.fill(realizations, count, dims)
+        for start, stop in _slices(count):
+            part = subject.fill(realizations, count, dims, start, stop - start)
+            where = f"in the slice {start}:{stop}"
+            judge_equal(subject, whole[:, :, start:stop], part, count, where, start=start)
+
+
+def _slices(count: int) -> list[tuple[int, int]]:
+    """Return slices at both ends, in the middle, of one point, and across the blocks in which images are made."""
+    middle = count // 2
+    wanted = [(0, 1), (0, count - 1), (1, count), (1, 2), (middle, middle + 1), (middle, count), (count - 1, count)]
+    wanted += [(3, 19), (63, 65), (1000, 1025), (1024, count)]
+    return sorted({(start, stop) for start, stop in wanted if 0 <= start < stop <= count})

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import functools
 import sys
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from samplekit._registry import ALLOW_VARIABLE, BUILTIN, registry
-from samplekit.testing._process import NoResultError, OtherProcess
+from samplekit.testing._process import NoResultError, run_elsewhere
 from samplekit.testing._result import CheckFailed, NotApplicable, conformance_check
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
+    # The other process imports this module, which must not import NumPy itself.
     from samplekit.testing._subject import Subject
 
 _HEAVY = {"numpy", "numba", "scipy", "OpenImageIO", "skimage"}
@@ -43,16 +43,15 @@ check_scene_import = conformance_check("light-import", 6, kind="scene")(_judge_l
 def _loaded(plugin: str) -> list[str]:
     """Return the heavy modules that the plugin's declarations import, in a process of their own."""
     environment = {ALLOW_VARIABLE: "" if plugin == BUILTIN else plugin}
-    loaded: list[str] = OtherProcess(f"{__name__}:answer", seconds=_SECONDS, environment=environment).one_result()
-    return loaded
+    return list(run_elsewhere(f"{__name__}:answer", seconds=_SECONDS, environment=environment))
 
 
-def answer() -> Iterator[list[str]]:
-    """List and complete all names, and tell which heavy modules were imported; this runs in the other process."""
+def answer() -> Iterator[str]:
+    """List and complete all names, and yield the heavy modules that this imported; this runs in the other process."""
     before = set(sys.modules)
     from samplekit.commands import complete_sampler, complete_scene
 
     offers = [*registry().all("sampler").values(), *registry().all("scene").values()]
     complete_sampler(""), complete_scene("")
     targets = {offer.spec.target.partition(":")[0] for offer in offers}
-    yield sorted((set(sys.modules) - before) & (targets | _HEAVY))
+    yield from sorted((set(sys.modules) - before) & (targets | _HEAVY))

@@ -1,19 +1,16 @@
-"""Large indices and pixels at the far ends: no overflow, no wrap, and nets are nets there too."""
+"""Large indices and pixels at the far ends: nothing overflows, nothing wraps, and nets are nets there too."""
 
 from __future__ import annotations
-
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from samplekit._bases.realizations import Realizations
-from samplekit._specs import Net
+from samplekit._specs import Net, PowersOf
+from samplekit.testing._checks.promises import promised_nets
 from samplekit.testing._checks.range import judge_range
-from samplekit.testing._judge import judge_equal, judge_promise
+from samplekit.testing._judge import judge_equal, judge_promise, repeated
 from samplekit.testing._result import CheckFailed, NotApplicable, conformance_check
-
-if TYPE_CHECKING:
-    from samplekit.testing._subject import SamplerSubject
+from samplekit.testing._subject import SamplerSubject
 
 _PLACES = (2**16, 2**31 - 1, 2**32, 2**40)
 _POINTS = 16
@@ -41,26 +38,24 @@ def check_large_index(subject: SamplerSubject) -> None:
                 alone = subject.fill(realizations, count, dims, start + i, 1)
                 judge_equal(subject, values[:, :, i : i + 1], alone, count, "when asked for alone", start=start + i)
             same = (values[0, :, :, None] == beginning[0, :, None, :]).all(axis=0)
-            if start >= _POINTS and same.any():
+            if same.any():
                 late, early = (int(i) for i in np.argwhere(same)[0])
                 raise CheckFailed(
                     f"point {start + late} of {count} is point {early} again",
                     subject.example(values, count, start=start, indices=(late,)),
                 )
-    for net in subject.spec.promised(Net):
-        dims = subject.dims(max(net.dims) + 1)
-        if net.sequence and max(net.dims) < dims:
-            _judge_late_blocks(subject, net, dims)
+    for net in promised_nets(subject.spec):
+        if net.sequence:
+            _judge_late_blocks(subject, net)
 
 
-def _judge_late_blocks(subject: SamplerSubject, net: Net, dims: int) -> None:
-    """Judge blocks of a promised (t, s)-sequence about the places: each is a net."""
+def _judge_late_blocks(subject: SamplerSubject, net: Net) -> None:
+    """Raise unless the blocks about large indices of a promised (t, s)-sequence are nets."""
+    dims = subject.dims(max(net.dims) + 1)
     block = next(net.base**m for m in range(64) if net.base**m >= 64 or m == net.t + 3)
     for place in _PLACES:
-        # The count is a power of the base, for samplers that make nothing else.
-        count = net.base
-        while count < place + block:
-            count *= net.base
+        # Some samplers make powers of the base only.
+        count = PowersOf(net.base).above(place + block - 1, dims)
         if subject.allows(count, dims):
             start = place // block * block
             values = subject.fill(Realizations.of_trials(0, 2, 0), count, dims, start, block)
@@ -69,28 +64,24 @@ def _judge_late_blocks(subject: SamplerSubject, net: Net, dims: int) -> None:
 
 @conformance_check("pixel-extremes", 17)
 def check_pixel_extremes(subject: SamplerSubject) -> None:
-    """Pixels at 0, 2^16 + 1, 2^31 - 1 and 2^32 - 1 have sets of their own, the same alone as in company."""
+    """Pixels at 0, 2^16 + 1, 2^31 - 1 and 2^32 - 1 have sets of their own, the same alone as with the others."""
     dims = subject.dims(2)
     count = subject.counts(16, dims=dims)[0]
     pixels = [(x, y) for y in _COORDINATES for x in _COORDINATES]
     x, y = np.array(pixels, np.int64).T
-    values = subject.fill(Realizations.of_pixels(x, y, 0), count, dims)
+    asked = Realizations.of_pixels(x, y, 0)
+    values = subject.fill(asked, count, dims)
     judge_range(subject, values, count, 0)
     for i, pixel in enumerate(pixels):
-        alone = subject.fill(Realizations.of_pixels(x[i : i + 1], y[i : i + 1], 0), count, dims)
-        if (alone[0] != values[i]).any():
+        if (subject.fill(asked[i : i + 1], count, dims)[0] != values[i]).any():
             raise CheckFailed(
                 "the set of a pixel is another one when it is asked for alone",
                 subject.request(count, dims, realization=pixel),
             )
-    seen: dict[bytes, tuple[int, int]] = {}
-    for pixel, points in zip(pixels, values, strict=True) if subject.spec.randomized else ():
-        earlier = seen.setdefault(points.tobytes(), pixel)
-        if earlier != pixel and not _may_repeat(subject.spec.period, earlier, pixel):
+    period = subject.spec.period
+    for first, second in repeated(values) if subject.spec.randomized else ():
+        if period is None or (x[second] - x[first]) % period != 0 or (y[second] - y[first]) % period != 0:
             raise CheckFailed(
-                f"pixels {earlier} and {pixel} have the same set", subject.request(count, dims, realization=pixel)
+                f"pixels {pixels[first]} and {pixels[second]} have the same set",
+                subject.request(count, dims, realization=pixels[second]),
             )
-
-
-def _may_repeat(period: int | None, first: tuple[int, int], second: tuple[int, int]) -> bool:
-    return period is not None and all((b - a) % period == 0 for a, b in zip(first, second, strict=True))

@@ -1,17 +1,15 @@
-"""Limits: what a sampler cannot make it refuses, naming the nearest that it can; what it accepts it makes in full."""
+"""A sampler refuses what it cannot make, and names the nearest that it can; what it accepts, it makes in full."""
 
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from samplekit._errors import CountError, UsageError
+from samplekit.testing._judge import repeated
 from samplekit.testing._result import CheckFailed, conformance_check
-
-if TYPE_CHECKING:
-    from samplekit.testing._subject import SamplerSubject
+from samplekit.testing._subject import SamplerSubject
 
 _COUNTS = (2, 3, 5, 6, 7, 11, 12, 13, 15, 17, 31, 48, 63, 64, 65, 97, 100, 127, 129, 1000, 1009)
 
@@ -82,7 +80,7 @@ def _judge_made_in_full(subject: SamplerSubject, count: int, dims: int) -> None:
 
 
 def _judge_dimensions_differ(subject: SamplerSubject) -> None:
-    """Raise if two dimensions are the same numbers: a number of dimensions that is wrapped in silence repeats them."""
+    """Raise if two dimensions are equal, as they are if a sampler wraps the number of a dimension without a word."""
     spec = subject.spec
     dims = subject.most_dims((spec.dimensions[1] or 256) if not subject.quick else 256)
     # A grid in so many dimensions has two cells along each.
@@ -90,11 +88,9 @@ def _judge_dimensions_differ(subject: SamplerSubject) -> None:
     if dims < 2 or count < 16:
         return
     values = subject.sets(count, dims, 1)
-    seen: dict[bytes, int] = {}
-    for dimension, row in enumerate(values[0]):
-        earlier = seen.setdefault(row.tobytes(), dimension)
-        if earlier != dimension:
-            raise CheckFailed(
-                f"dimensions {earlier} and {dimension} are the same numbers in all {count} points",
-                subject.example(values, count, indices=(0, count - 1), axes=(earlier, dimension)),
-            )
+    pair = next(repeated(values[0]), None)
+    if pair is not None:
+        raise CheckFailed(
+            f"dimensions {pair[0]} and {pair[1]} are the same numbers in all {count} points",
+            subject.example(values, count, indices=(0, count - 1), axes=pair),
+        )

@@ -1,37 +1,32 @@
 """Across pixels: no set comes back before the declared period, and neighbours are independent of each other.
 
-Pixels that are declared to share a sequence with their neighbours (``screen_block``) must do more: see ``_screen``.
+Pixels that are declared to share a sequence with their neighbours (``screen_block``) must do more: see ``screen.py``.
 Pixels of different blocks are independent.
 """
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from samplekit._bases.realizations import Realizations
 from samplekit.testing._checks.screen import judge_blocks
-from samplekit.testing._result import CheckFailed, conformance_check
+from samplekit.testing._judge import repeated
+from samplekit.testing._result import CheckFailed, NotApplicable, conformance_check
 from samplekit.testing._statistics import normal_threshold
-
-if TYPE_CHECKING:
-    from samplekit.testing._subject import Array, SamplerSubject
+from samplekit.testing._subject import Array, SamplerSubject
 
 _PIXELS, _QUICK_PIXELS = 1 << 17, 1 << 13
 _LAGS = (1, 2, 16, 256)
 _COUNT = 4
 
 
-@conformance_check(
-    "across-pixels",
-    13,
-    tolerance="repeats exact; correlation family-wise 1e-3",
-    requires=lambda spec: "" if spec.randomized else "it is not declared randomised: all pixels have one set",
-)
+@conformance_check("across-pixels", 13)
 def check_across_pixels(subject: SamplerSubject) -> None:
-    """No two of 2^17 pixels of a row, and of a column, have one set; neighbours are not correlated, or share a net."""
+    """No two of 2^17 pixels in a row or column have the same set; neighbours are not correlated, or share a net."""
+    if not subject.spec.randomized:
+        raise NotApplicable("it is not declared randomised: all pixels have one set")
     dims = subject.dims(2)
     count = subject.counts(_COUNT, dims=dims)[0]
     pixels = subject.affordable(_QUICK_PIXELS if subject.quick else _PIXELS, count, dims, least=512)
@@ -54,22 +49,16 @@ def _pixel(axis: str, place: int) -> tuple[int, int]:
 
 
 def _judge_repeats(subject: SamplerSubject, values: Array, axis: str, count: int) -> None:
-    rows = np.ascontiguousarray(values.reshape(len(values), -1)).view(np.dtype((np.void, values[0].nbytes))).ravel()
-    _, first, group = np.unique(rows, return_index=True, return_inverse=True)
-    earlier = first[group]
-    later = np.flatnonzero(earlier != np.arange(len(rows)))
     period = subject.spec.period
-    if period is not None:
-        later = later[(later - earlier[later]) % period != 0]
-    if later.size:
-        second = int(later[0])
-        promised = "never" if period is None else f"after {period} pixels"
-        points = values[second].T.copy()
-        raise CheckFailed(
-            f"the set of pixel {earlier[second]} comes back in pixel {second} along {axis},"
-            f" {second - earlier[second]} pixels on: it is declared to come back {promised}",
-            subject.request(count, int(values.shape[1]), realization=_pixel(axis, second), points=points),
-        )
+    for first, second in repeated(values):
+        if period is None or (second - first) % period != 0:
+            promised = "never" if period is None else f"after {period} pixels"
+            points = values[second].T.copy()
+            raise CheckFailed(
+                f"the set of pixel {first} comes back in pixel {second} along {axis},"
+                f" {second - first} pixels on: it is declared to come back {promised}",
+                subject.request(count, int(values.shape[1]), realization=_pixel(axis, second), points=points),
+            )
 
 
 def _judge_neighbours(subject: SamplerSubject, u: Array, axis: str, dimension: int, count: int, dims: int) -> None:

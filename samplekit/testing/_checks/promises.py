@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 from samplekit._bases.realizations import Realizations
-from samplekit._specs import MinimumDistance, Net, Strata
+from samplekit._specs import MinimumDistance, Net, Promise, SamplerSpec, Strata
 from samplekit.testing._judge import judge_promise
 from samplekit.testing._result import NotApplicable, conformance_check
-
-if TYPE_CHECKING:
-    from samplekit._specs import SamplerSpec
-    from samplekit.testing._subject import SamplerSubject
+from samplekit.testing._subject import SamplerSubject
 
 _LARGEST_NET, _LARGEST_QUICK_NET = 1 << 16, 1 << 12
 _LARGEST_BLOCK = 1 << 10
@@ -29,15 +26,17 @@ def promised_nets(spec: SamplerSpec) -> list[Net]:
     return [net for net in spec.promised(Net) if most is None or max(net.dims) < most]
 
 
-@conformance_check("elementary-intervals", 7, requires=lambda spec: "" if promised_nets(spec) else "it promises no net")
+@conformance_check("elementary-intervals", 7)
 def check_elementary_intervals(subject: SamplerSubject) -> None:
-    """Every elementary interval of every promised net holds its points: first block, later ones of a sequence.
+    """Every elementary interval of every promised net holds its share of points, also in later blocks of a sequence.
 
     A (t, m, s)-net has b^t points in every b-adic box of volume b^(t - m), of every shape: Niederreiter 1987, "Point
     sets and sequences with small discrepancy".
     """
-    judged = False
     nets = promised_nets(subject.spec)
+    if not nets:
+        raise NotApplicable("it promises no net")
+    judged = False
     for net in nets:
         dims = subject.dims(max(net.dims) + 1)
         for m in range(net.t, 64):
@@ -55,14 +54,18 @@ def check_elementary_intervals(subject: SamplerSubject) -> None:
                 _judge_later_blocks(subject, net, count, dims)
     if not judged:
         raise NotApplicable("it makes no count that is a power of a promised base")
-    for extreme in subject.extremes:
-        for net in nets:
-            judge_promise(subject, net, extreme.values, extreme.count, when=extreme.when)
+    _judge_extremes(subject, nets)
+
+
+def _judge_extremes(subject: SamplerSubject, promises: Sequence[Promise]) -> None:
+    for when, values in subject.extremes:
+        for promise in promises:
+            judge_promise(subject, promise, values, values.shape[2], when=when)
 
 
 def _judge_sets(
     subject: SamplerSubject,
-    promise: Net | Strata,
+    promise: Promise,
     count: int,
     dims: int,
     wanted: int,
@@ -87,11 +90,13 @@ def _judge_later_blocks(subject: SamplerSubject, net: Net, block: int, dims: int
         judge_promise(subject, net, values, count, start=start)
 
 
-@conformance_check("strata", 8, requires=lambda spec: "" if spec.promised(Strata) else "it promises no strata")
+@conformance_check("strata", 8)
 def check_strata(subject: SamplerSubject) -> None:
     """Every promised interval and cell holds exactly one point, in every set."""
-    judged = False
     promises = subject.spec.promised(Strata)
+    if not promises:
+        raise NotApplicable("it promises no strata")
+    judged = False
     for promise in promises:
         for dims in sorted({subject.dims(d) for d in (1, 2, 3, 5)}):
             for count in subject.counts(*(_QUICK_COUNTS if subject.quick else _COUNTS), dims=dims):
@@ -100,21 +105,17 @@ def check_strata(subject: SamplerSubject) -> None:
                     _judge_sets(subject, promise, count, dims, 64 if count <= 100 else 4, least=4)
     if not judged:
         raise NotApplicable("no count that it makes has the promised strata")
-    for extreme in subject.extremes:
-        for promise in promises:
-            judge_promise(subject, promise, extreme.values, extreme.count, when=extreme.when)
+    _judge_extremes(subject, promises)
 
 
-@conformance_check(
-    "minimum-distance",
-    9,
-    tolerance="2^-51, the rounding of the coordinates",
-    requires=lambda spec: "" if spec.promised(MinimumDistance) else "it promises no minimum distance",
-)
+@conformance_check("minimum-distance", 9)
 def check_minimum_distance(subject: SamplerSubject) -> None:
     """No two points are closer than the promised part of the densest packing's distance, on the torus."""
+    promises = subject.spec.promised(MinimumDistance)
+    if not promises:
+        raise NotApplicable("it promises no minimum distance")
     judged = False
-    for promise in subject.spec.promised(MinimumDistance):
+    for promise in promises:
         for dims in sorted({subject.dims(d) for d in (1, 2, 3)}):
             for count in subject.counts(*(_QUICK_DISTANCE_COUNTS if subject.quick else _DISTANCE_COUNTS), dims=dims):
                 if promise.distance(count, dims) is not None:

@@ -6,19 +6,15 @@ import contextlib
 import io
 import random
 import threading
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from samplekit.testing._elsewhere import judge_elsewhere
 from samplekit.testing._judge import judge_equal
 from samplekit.testing._result import CheckFailed, conformance_check
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from samplekit.testing._subject import Array, SamplerSubject
+from samplekit.testing._subject import Array, SamplerSubject
 
 _TIMES, _MOST_TIMES = 4, 256
 
@@ -35,7 +31,7 @@ def check_purity(subject: SamplerSubject) -> None:
         for other in _at_once(subject, count, dims):
             judge_equal(subject, whole, other, count, "while another thread asked as well")
     if not subject.quick:
-        judge_elsewhere(subject, "pickle", "pickled, in another process")
+        judge_elsewhere(subject, subject.sampler, "pickled, in another process")
 
 
 @contextlib.contextmanager

@@ -5,16 +5,13 @@ from __future__ import annotations
 import functools
 import math
 from concurrent.futures import ThreadPoolExecutor
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from samplekit.testing._checks.purity import changing_nothing
 from samplekit.testing._result import CheckFailed, NotApplicable, conformance_check
-from samplekit.testing._statistics import SAMPLER_RATE
-
-if TYPE_CHECKING:
-    from samplekit.testing._subject import Array, SceneSubject
+from samplekit.testing._statistics import SAMPLER_RATE, student_threshold
+from samplekit.testing._subject import Array, SceneSubject
 
 _NODES = (16, 32, 64)
 _SMOOTH = 1e-12
@@ -40,8 +37,10 @@ def _box(x_edges: Array, y_edges: Array, j: int, i: int) -> Array:
     return np.array([x_edges[i], x_edges[i + 1] - x_edges[i], y_edges[j], y_edges[j + 1] - y_edges[j]])
 
 
-def _name(subject: SceneSubject, x_edges: Array, y_edges: Array, j: int, i: int) -> str:
-    return f"scene {subject.text}, pixel [{x_edges[i]}, {x_edges[i + 1]}] x [{y_edges[j]}, {y_edges[j + 1]}]"
+def _name(subject: SceneSubject, box: Array) -> str:
+    """Return the name of a pixel; its edges are multiples of a power of 1/2, so that the sums are exact."""
+    left, width, top, height = box
+    return f"scene {subject.text}, pixel [{left}, {left + width}] x [{top}, {top + height}]"
 
 
 def _reference(subject: SceneSubject, x_edges: Array, y_edges: Array) -> tuple[Array, float]:
@@ -54,9 +53,12 @@ def _reference(subject: SceneSubject, x_edges: Array, y_edges: Array) -> tuple[A
     return reference.image, reference.error
 
 
-@conformance_check("reference", 1, kind="scene", tolerance="1e-10 where smooth; else t-test, family-wise 1e-3")
+@conformance_check("reference", 1, kind="scene")
 def check_reference(subject: SceneSubject) -> None:
-    """The exact mean of a pixel is what another quadrature gives: Gauss-Legendre, or shifted lattices."""
+    """The exact mean of a pixel is what another quadrature gives: Gauss-Legendre, or shifted lattices.
+
+    They agree to 1e-10 where the scene is smooth, and elsewhere by a t-test.
+    """
     windows = _windows(subject)
     tests = sum((x.size - 1) * (y.size - 1) for x, y in windows)
     smooth = 0
@@ -65,13 +67,13 @@ def check_reference(subject: SceneSubject) -> None:
         if not np.isfinite(exact).all():
             raise CheckFailed(f"scene {subject.text}: the reference is not finite")
         for j, i in np.ndindex(exact.shape):
-            mean, tolerance = _quadrature(subject, _box(x_edges, y_edges, j, i), tests)
+            box = _box(x_edges, y_edges, j, i)
+            mean, tolerance = _quadrature(subject, box, tests)
             smooth += tolerance <= _SMOOTH_TOLERANCE * max(1.0, abs(mean))
             if abs(exact[j, i] - mean) > tolerance + bound:
                 raise CheckFailed(
-                    f"{_name(subject, x_edges, y_edges, j, i)}: the reference is {float(exact[j, i])!r}, another"
-                    f" quadrature gives {mean:.12g} within {tolerance:.2g} (the scene states {bound:g} for its own"
-                    " error)"
+                    f"{_name(subject, box)}: the reference is {float(exact[j, i])!r}, another quadrature gives"
+                    f" {mean:.12g} within {tolerance:.2g} (the scene states {bound:g} for its own error)"
                 )
     subject.note(f"{smooth} of {tests} pixels by Gauss-Legendre to 1e-10, the others by lattices")
 
@@ -85,16 +87,14 @@ def _quadrature(subject: SceneSubject, box: Array, tests: int) -> tuple[float, f
             values = subject.values(u, box)
             mean = float(weights @ values) / 4.0
             scale = max(1.0, abs(mean))
-            # Rules that see one value agree whatever passes between their nodes: a needle, a spike.
+            # Two rules that see one value only agree, even if a spike lies between their nodes.
             if abs(mean - previous) <= _SMOOTH * scale and np.ptp(values) > 0.0:
                 return mean, _SMOOTH_TOLERANCE * scale
             previous = mean
-    from scipy.special import stdtrit
-
     means = np.array([subject.mean(u, box) for u in _shifted_lattices(subject.dims)])
     error = float(means.std(ddof=1)) / math.sqrt(_SHIFTS)
-    threshold = -float(stdtrit(_SHIFTS - 1, SAMPLER_RATE / tests / 2))
-    # Sets that all give one value may all miss the same sliver: it is smaller than the cells of a lattice.
+    threshold = student_threshold(tests, _SHIFTS - 1, SAMPLER_RATE)
+    # If all sets give one value, they may all miss a sliver that is smaller than a cell of a lattice.
     mean = float(means.mean())
     return mean, threshold * error + 2.0 / _LATTICE + _SMOOTH * abs(mean)
 
@@ -109,15 +109,18 @@ def _product_rule(nodes: int) -> tuple[Array, Array]:
 # Made once for all pixels: making the rules and the lattices takes longer than using them.
 @functools.cache
 def _shifted_lattices(dims: int) -> list[Array]:
-    """Return Kronecker sets with square roots of primes as steps and random shifts: unbiased, and nobody's sampler."""
+    """Return Kronecker sets with square roots of primes as steps, shifted at random: unbiased, and none of ours."""
     base = np.arange(_LATTICE)[None, :] * np.sqrt(np.array(_PRIMES[:dims], float))[:, None]
     shifts = np.random.default_rng(5).random((_SHIFTS, dims, 1))
     return [np.minimum((base + shift) % 1.0, _ALMOST_ONE) for shift in shifts]
 
 
-@conformance_check("refinement", 2, kind="scene", tolerance="1e-12, and twice the error that the scene states")
+@conformance_check("refinement", 2, kind="scene")
 def check_refinement(subject: SceneSubject) -> None:
-    """The exact mean of a pixel is the mean of the exact means of its four quarters."""
+    """The exact mean of a pixel is the mean of the exact means of its four quarters.
+
+    They agree to 1e-12, and twice the error that the scene states.
+    """
     for x_edges, y_edges in _windows(subject):
         exact, bound = _reference(subject, x_edges, y_edges)
         fine, _ = _reference(subject, _halved(x_edges), _halved(y_edges))
@@ -126,8 +129,8 @@ def check_refinement(subject: SceneSubject) -> None:
         j, i = divmod(int(apart.argmax()), apart.shape[1])
         if apart[j, i] > 2.0 * bound + 1e-12 * max(1.0, float(np.abs(exact).max())):
             raise CheckFailed(
-                f"{_name(subject, x_edges, y_edges, j, i)}: the reference is {float(exact[j, i])!r}, its quarters have"
-                f" the mean {float(quarters[j, i])!r}"
+                f"{_name(subject, _box(x_edges, y_edges, j, i))}: the reference is {float(exact[j, i])!r}, its quarters"
+                f" have the mean {float(quarters[j, i])!r}"
             )
 
 
@@ -135,7 +138,7 @@ def _halved(edges: Array) -> Array:
     return np.sort(np.concatenate([edges, (edges[:-1] + edges[1:]) / 2.0]))
 
 
-@conformance_check("constants", 3, kind="scene", tolerance="bit for bit")
+@conformance_check("constants", 3, kind="scene")
 def check_constants(subject: SceneSubject) -> None:
     """Every sample of a pixel that is called constant has that value, and so has the reference."""
     if subject.scene.at_centre:
@@ -147,23 +150,21 @@ def check_constants(subject: SceneSubject) -> None:
         constant = subject.scene.constant(x_edges, y_edges)
         for j, i in np.argwhere(~np.isnan(constant)):
             found += 1
+            box = _box(x_edges, y_edges, j, i)
             value = float(constant[j, i])
             u = rng.random((subject.dims, 200))
             u[:2, : corners.shape[1]] = corners
-            values = subject.values(u, _box(x_edges, y_edges, j, i))
+            values = subject.values(u, box)
             wrong = np.flatnonzero(values != value)
             if wrong.size:
                 raise CheckFailed(
-                    f"{_name(subject, x_edges, y_edges, j, i)} is called constant {value!r}, but at"
-                    f" {u[:, wrong[0]].tolist()} within it the value is {float(values[wrong[0]])!r}"
+                    f"{_name(subject, box)} is called constant {value!r}, but at {u[:, wrong[0]].tolist()} within it"
+                    f" the value is {float(values[wrong[0]])!r}"
                 )
             image, bound = _reference(subject, x_edges[i : i + 2], y_edges[j : j + 2])
             exact = float(image[0, 0])
             if abs(exact - value) > bound + 1e-12 * max(1.0, abs(exact)):
-                raise CheckFailed(
-                    f"{_name(subject, x_edges, y_edges, j, i)} is called constant {value!r}, but its reference is"
-                    f" {exact!r}"
-                )
+                raise CheckFailed(f"{_name(subject, box)} is called constant {value!r}, but its reference is {exact!r}")
     if not found:
         raise NotApplicable("it calls no pixel of those looked at constant")
     subject.note(f"{found} constant pixels")
@@ -171,7 +172,7 @@ def check_constants(subject: SceneSubject) -> None:
 
 @conformance_check("dimensions-used", 4, kind="scene")
 def check_dimensions_used(subject: SceneSubject) -> None:
-    """Every dimension that it asks for changes its value somewhere: others are drawn for nothing."""
+    """Every dimension that the scene asks for changes its value somewhere."""
     declared = [purpose for purpose, _ in subject.spec.purposes]
     unknown = [purpose for purpose in subject.scene.needs if purpose not in declared]
     if unknown:
@@ -192,19 +193,19 @@ def check_dimensions_used(subject: SceneSubject) -> None:
         raise CheckFailed(f"scene {subject.text} asks for dimensions that change nothing: {', '.join(unused)}")
 
 
-@conformance_check("purity", 5, kind="scene", tolerance="bit for bit")
+@conformance_check("purity", 5, kind="scene")
 def check_scene_purity(subject: SceneSubject) -> None:
-    """A pixel's sum is the same again, alone, from another thread; nothing else is changed, nothing printed."""
+    """The sum of a pixel is the same again, alone and in another thread; nothing else changes, nothing is printed."""
     rng = np.random.default_rng(13)
     pixels = 40
     boxes = np.stack([rng.integers(0, 64, pixels) / 64, np.full(pixels, 1 / 64)] * 2)
     for count in (1, 7, _BLOCK):
         tile = rng.random((pixels, subject.dims, count))
         with changing_nothing():
-            whole = _sums(subject, tile, boxes)
+            whole = subject.sums(tile, boxes)
         with ThreadPoolExecutor(1) as thread:
-            again = thread.submit(_sums, subject, tile, boxes).result()
-        alone = np.concatenate([_sums(subject, tile[p : p + 1], boxes[:, p : p + 1]) for p in range(pixels)])
+            again = thread.submit(subject.sums, tile, boxes).result()
+        alone = np.concatenate([subject.sums(tile[p : p + 1], boxes[:, p : p + 1]) for p in range(pixels)])
         for other, when in ((again, "in another thread"), (alone, "when it is asked for alone")):
             different = np.flatnonzero(whole.view(np.uint64) != other.view(np.uint64))
             if different.size:
@@ -213,11 +214,3 @@ def check_scene_purity(subject: SceneSubject) -> None:
                     f"scene {subject.text}: the sum of {count} samples of pixel {boxes[:, p].tolist()} is"
                     f" {float(whole[p])!r}, but {float(other[p])!r} {when}"
                 )
-
-
-def _sums(subject: SceneSubject, tile: Array, boxes: Array) -> Array:
-    """Return the sums float64[P] of the pixels of a tile, from copies that nobody else uses."""
-    subject.drawn += tile.shape[0] * tile.shape[2]
-    out = np.full(len(tile), np.nan)
-    subject.scene.sums(tile.copy(), boxes.copy(), out)
-    return out

@@ -1,4 +1,4 @@
-"""Blocks of pixels that share one sequence: what takes the place of the independence of pixels.
+"""Judge blocks of pixels that share one sequence: for them, this replaces the independence of pixels.
 
 A sampler that declares ``screen_block`` must do two things. Exactly: the sets of a block's pixels together keep every
 net and all strata that are promised of one set, so they are different parts of one good set. Statistically: the part of
@@ -8,20 +8,16 @@ their errors that is left after averaging over a square of pixels is less than h
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit._bases.realizations import Realizations
 from samplekit._specs import Strata
 from samplekit.testing._checks.promises import promised_nets
 from samplekit.testing._judge import judge_promise
 from samplekit.testing._result import CheckFailed
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from samplekit.testing._subject import Array, SamplerSubject
+from samplekit.testing._subject import Array, SamplerSubject
 
 _COUNTS = (1, 4, 16)
 _EXACT_BLOCKS = 4

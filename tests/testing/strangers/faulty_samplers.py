@@ -5,12 +5,18 @@ import time
 
 import numpy as np
 
-from samplekit import Sampler
+from samplekit import Sampler, UsageError
 
 
 class Plain(Sampler):
     def draw(self, count, dims, rng):
         return rng.random((count, dims))
+
+
+class Picky(Plain):
+    def check(self, count, dims, blocks):
+        if count >= 50:
+            raise UsageError("fewer than 50 points only")
 
 
 class Hangs(Plain):
