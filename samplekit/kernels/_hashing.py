@@ -4,8 +4,6 @@ The mixing function is the finaliser of SplitMix64 (Steele, Lea, Flood 2014, "Fa
 number generators", OOPSLA, figure 15; constants: Stafford's variant 13). It is a bijection of 64-bit words.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from samplekit.kernels._compile import helper
@@ -73,3 +71,9 @@ def unit(bits: np.uint64) -> float:
 def below(bits: np.uint64, bound: np.uint64) -> np.uint64:
     """An integer in [0, bound), bound < 2^32; each value's probability is within 2^-32 of 1/bound."""
     return ((bits >> _S32) * bound) >> _S32
+
+
+@helper
+def random_below(bits: np.uint64, bound: float) -> float:
+    """An integer from 0 to bound - 1 as a float64, for a ``bound`` of at most 2^45."""
+    return float(np.floor(unit(bits) * bound))

@@ -8,8 +8,6 @@ nested scrambling allows equally often, so the variance is Owen's. A dimension's
 bits for the digits past the 32nd.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from samplekit.kernels._compile import helper, reverse_bits32
