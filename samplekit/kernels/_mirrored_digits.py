@@ -79,8 +79,9 @@ def fill_mirrored(
 ) -> None:
     """Write the points start, start + 1, ...; dimension d has the base ``bases[d]``.
 
-    ``mode``: ``PLAIN``, indices below 2^53 / base and keys of no account; ``SHIFTED`` or ``PERMUTED``, indices below
-    2^32: digit c at place j becomes s_j + c, or s_j + a random permutation of c, modulo the base.
+    ``mode`` is one of three. ``PLAIN``: the digits as they are; indices are below 2^53 / base, and keys are not used.
+    ``SHIFTED``: digit c at place j becomes s_j + c modulo the base; indices are below 2^32. ``PERMUTED``: the same with
+    a random permutation of c in the place of c.
     """
     realizations, dims, points = out.shape
     last = start + points - 1

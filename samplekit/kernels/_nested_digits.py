@@ -1,11 +1,11 @@
 """Nested uniform scrambling in a base b > 2 (Owen 1995, "Randomly permuted (t,m,s)-nets and (t,s)-sequences").
 
 Point by point, after Helmer, Christensen, Kensler 2021, "Stochastic generation of (t, s) sample sequences": index i
-shares all digits of its scrambled radical inverse with its parent, i without its leading digit c, down to the place of
-c; there it differs; all behind is random. The digit at that place is the parent's plus f c modulo b, f random among
-1, ..., b - 1 for each node of the tree. In a prime base any two digits of a node so go to a uniformly random pair of
-distinct digits, which is all that mean and variance depend on (Owen 2003, "Variance with alternative scramblings of
-digital nets"). Digits are scrambled as those of the index whose mirrored digits they are.
+has a parent, which is i without its leading digit c. Their scrambled radical inverses have the same digits before the
+place of c, and independent random digits after it. At that place the digit of i is that of its parent plus f c modulo
+b, where f is a random number among 1, ..., b - 1 for each node of the tree. In a prime base any two digits of a node
+thus go to a uniformly random pair of distinct digits, and mean and variance depend on nothing else (Owen 2003,
+"Variance with alternative scramblings of digital nets").
 """
 
 import numpy as np
@@ -44,7 +44,10 @@ def scrambled_child(
     weight: float,
     per_weight: float,
 ) -> float:
-    """The numerator of a child from its parent's: ``step`` added to the digit of ``weight``, all behind it random."""
+    """The numerator of a child from its parent's, with ``step`` added to the digit of ``weight``.
+
+    The digits after it are random: ``tail`` are 64 random bits.
+    """
     head = float(np.floor((numerator + 0.5) * per_weight))
     digit = head - base * float(np.floor((head + 0.5) * per_base))
     return (head - digit + moved_digit(digit, step, base, per_base)) * weight + random_below(tail, weight)
@@ -63,7 +66,7 @@ def _write_children(
     base: float,
     per_base: float,
 ) -> None:
-    """The points parent + digit reach, ... from the points parent, ...; the two arrays may be one."""
+    """Write the points parent + digit reach, ... from the points parent, ...; both arrays may be the same."""
     factors = factor_key(key, reach)
     per_weight = 1.0 / weight
     c = np.float64(digit)

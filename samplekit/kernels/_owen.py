@@ -39,7 +39,7 @@ def owen_factor(key: np.uint64) -> np.uint32:
 
 @helper
 def owen_tail(key: np.uint64) -> np.uint64:
-    """21 random bits, exclusive-ored with the digits after the 32nd: without them every point lies left in its cell."""
+    """21 random bits, exclusive-ored with the digits after the 32nd: zeros leave each point at its cell's left edge."""
     return mix64(key + _TAIL) >> _U64(43)
 
 

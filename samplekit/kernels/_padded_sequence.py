@@ -1,4 +1,4 @@
-"""A digital sequence of a few dimensions, scrambled and repeated for as many dimensions as are wanted ("padding").
+"""A digital sequence of a few dimensions, scrambled and repeated for any number of dimensions ("padding").
 
 Each block of dimensions is the same sequence under an Owen scrambling of its own, visited in an order of its own: the
 index, taken as a binary fraction, is Owen-scrambled as well (Burley 2020, "Practical hash-based Owen scrambling",
@@ -62,7 +62,7 @@ def fill_padded(
 ) -> None:
     """Write the points start, start + 1, ...; the first ``unshuffled`` dimensions keep the order of the index.
 
-    ``tables``: as :func:`group_tables` has them; as many dimensions form a block.
+    ``tables`` comes from :func:`group_tables`; its number of dimensions is that of a block.
     """
     realizations, dims, points = out.shape
     block = tables.shape[0]

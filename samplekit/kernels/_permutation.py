@@ -87,7 +87,7 @@ def permute(index: int, count: int, bits: int, key: np.uint64) -> int:
 
 @helper
 def permute_range(place: NDArray[np.int64], start: int, count: int, bits: int, key: np.uint64) -> None:
-    """The places of start, start + 1, ... as :func:`permute` has them, many at a time."""
+    """Write what :func:`permute` returns for start, start + 1, ..., in a loop that vectorises."""
     for i in range(place.size):
         place[i] = scatter(_U32(start + i), bits, key)
     if count == 1 << bits:

@@ -65,10 +65,7 @@ _LN2 = 0.6931471805599453
 _LN2_LOW = 2.3190468138462996e-17
 _ROUND = 2.0**52
 _BEYOND_UNDERFLOW = 760.0
-_ONE = np.uint64(1)
-_LOW_BITS = np.uint64(0xFFF)
-_BIAS = np.uint64(1023)
-_MANTISSA = np.uint64(52)
+_U64 = np.uint64
 
 
 @helper
@@ -108,11 +105,11 @@ def exp_of_minus(x: float) -> float:
     whole = rounded - _ROUND
     p = _polynomial(_EXPONENTIAL, fma(whole, _LN2_LOW, fma(whole, _LN2, -x)))
     # 2^-n as two powers of two that are both normal numbers, so that only the last product rounds to a subnormal.
-    n = np.float64(rounded).view(np.uint64) & _LOW_BITS
-    half = n >> _ONE
-    first = (_BIAS - half) << _MANTISSA
-    second = (_BIAS - (n - half)) << _MANTISSA
-    return p * np.uint64(first).view(np.float64) * np.uint64(second).view(np.float64)
+    n = np.float64(rounded).view(np.uint64) & _U64(0xFFF)
+    half = n >> _U64(1)
+    first = (_U64(1023) - half) << _U64(52)
+    second = (_U64(1023) - (n - half)) << _U64(52)
+    return p * _U64(first).view(np.float64) * _U64(second).view(np.float64)
 
 
 @helper

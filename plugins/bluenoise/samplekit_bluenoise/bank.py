@@ -9,7 +9,7 @@ import os
 import threading
 from collections import OrderedDict
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 from numpy.typing import NDArray
@@ -131,14 +131,9 @@ class WholeSets(Sampler):
         realizations = Realizations.of_trials(0, shape[0], _SEED)
         progress(0, shape[0])
         with ThreadPoolExecutor(os.cpu_count()) as pool:
-            jobs = [pool.submit(self.make, sets[k : k + 1], realizations[k : k + 1]) for k in range(shape[0])]
-            try:
-                for done, job in enumerate(as_completed(jobs), 1):
-                    job.result()
-                    progress(done, shape[0])
-            except BaseException:
-                pool.shutdown(wait=False, cancel_futures=True)
-                raise
+            made = pool.map(lambda k: self.make(sets[k : k + 1], realizations[k : k + 1]), range(shape[0]))
+            for done, _ in enumerate(made, 1):
+                progress(done, shape[0])
         return sets
 
 

@@ -27,8 +27,6 @@ from samplekit.kernels import TWO_M32, below, dimension_key, hash_index, helper,
 Array = NDArray[np.float64]
 
 _U64 = np.uint64
-_LOW = _U64(0xFFFFFFFF)
-_S32 = _U64(32)
 
 MOST_ATTEMPTS = 100
 """Number of sets begun for one realisation before giving up."""
@@ -184,8 +182,8 @@ def throw_darts(out: Array, keys: NDArray[np.uint64], distance: float) -> int:
             while placed < count and thrown - placed <= most:
                 for k in range(_HANDFUL):
                     bits = hash_index(key, second, _U64(thrown + k))
-                    x = np.int64(bits >> _S32)
-                    y = np.int64(bits & _LOW)
+                    x = np.int64(bits >> _U64(32))
+                    y = np.int64(bits & _U64(0xFFFFFFFF))
                     handful[k, 0] = x
                     handful[k, 1] = y
                     # The value is not used; reading it fetches the cells of the whole handful from memory together.
@@ -220,12 +218,12 @@ def throw_darts(out: Array, keys: NDArray[np.uint64], distance: float) -> int:
                     thrown += 1
                     column = cells[pick] & _COLUMN
                     row = cells[pick] >> _ROW
-                    x = np.int64((column + np.float64(bits >> _S32) * TWO_M32) * width)
-                    y = np.int64((row + np.float64(bits & _LOW) * TWO_M32) * width)
+                    x = np.int64((column + np.float64(bits >> _U64(32)) * TWO_M32) * width)
+                    y = np.int64((row + np.float64(bits & _U64(0xFFFFFFFF)) * TWO_M32) * width)
                     before = placed
                     placed = _place_if_free(x, y, column >> splits, row >> splits, least, placed, disks)
                     misses += placed == before
-                # The list outgrows the first quarters only if the random numbers are no random numbers.
+                # With random numbers the list never grows so long; with constant ones, as a check makes them, it may.
                 if placed == count or active > 4 * side * side:
                     break
             if placed == count:

@@ -148,14 +148,14 @@ def eliminate(out: Array, keys: NDArray[np.uint64]) -> None:
         points = points[np.argsort(np.floor(points[:, 1] * rows) + points[:, 0], kind="mergesort")]
         for i in range(size):
             heap[i] = i
-        _eliminate(points, heap, size, count, place, weights, head, following)
-        left = count
+        left = size
+        target = count
         while left > 1:
-            half = 1
-            while 2 * half < left:
-                half *= 2
-            _eliminate(points, heap, left, half, place, weights, head, following)
-            left = half
+            _eliminate(points, heap, left, target, place, weights, head, following)
+            left = target
+            target = 1
+            while 2 * target < left:
+                target *= 2
         for i in range(count):
             out[r, 0, i] = points[heap[i], 0]
             out[r, 1, i] = points[heap[i], 1]

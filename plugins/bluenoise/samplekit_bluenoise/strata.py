@@ -14,8 +14,6 @@ from samplekit.kernels import TWO_M32, hash_index, helper, kernel, second_key
 Array = NDArray[np.float64]
 
 _U64 = np.uint64
-_LOW = _U64(0xFFFFFFFF)
-_S32 = _U64(32)
 
 
 @helper
@@ -40,8 +38,8 @@ def scatter(points: Array, key: np.uint64) -> None:
         width = (row + 1) * count // rows - first
         for i in range(first, first + width):
             bits = hash_index(key, second, _U64(i))
-            points[0, i] = (i - first + _place(bits >> _S32)) / width
-            points[1, i] = (first + _place(bits & _LOW) * width) / count
+            points[0, i] = (i - first + _place(bits >> _U64(32))) / width
+            points[1, i] = (first + _place(bits & _U64(0xFFFFFFFF)) * width) / count
 
 
 @kernel("void(float64[:,::1], float64[:,::1], int64, uint64)")
@@ -79,7 +77,7 @@ def split(finer: Array, points: Array, splits: int, key: np.uint64) -> None:
         line = np.floor((y - first) / width * parts)
         for quarter in range(4):
             bits = hash_index(key, second, _U64(4 * k + quarter))
-            finer[0, 4 * k + quarter] = (2.0 * column + (quarter & 1) + _place(bits >> _S32)) / (2 * parts * width)
+            finer[0, 4 * k + quarter] = (2.0 * column + (quarter & 1) + _place(bits >> _U64(32))) / (2 * parts * width)
             finer[1, 4 * k + quarter] = (
-                first + (2.0 * line + (quarter >> 1) + _place(bits & _LOW)) / (2 * parts) * width
+                first + (2.0 * line + (quarter >> 1) + _place(bits & _U64(0xFFFFFFFF))) / (2 * parts) * width
             ) / strata
