@@ -66,10 +66,10 @@ def tables() -> dict[str, tuple[Callable[[Any], Any], Interval, list[float]]]:
     # The rounding to a whole power of two may end a little beyond half of ln 2.
     wide = (-half * mpmath.mpf("1.0001"), half * mpmath.mpf("1.0001"))
     return {
-        "_cosine: cos(2 pi t), z = t^2": (cosine_of_turns, turns, fit(cosine_of_turns, turns, 10, (1.0,))),
-        "_exponential: exp(r)": (mpmath.exp, wide, fit(mpmath.exp, wide, 11, (1.0, 1.0))),
-        "_concentric: cos(pi/4 t), z = t^2": (cosine, unit, fit(cosine, unit, 6, (1.0,))),
-        "_concentric: sin(pi/4 t) / t, z = t^2": (sine, unit, fit(sine, unit, 6)),
+        "_COSINE_OF_TURNS: cos(2 pi t), z = t^2": (cosine_of_turns, turns, fit(cosine_of_turns, turns, 10, (1.0,))),
+        "_EXPONENTIAL: exp(r)": (mpmath.exp, wide, fit(mpmath.exp, wide, 11, (1.0, 1.0))),
+        "_COSINE: cos(pi/4 t), z = t^2": (cosine, unit, fit(cosine, unit, 6, (1.0,))),
+        "_SINE: sin(pi/4 t) / t, z = t^2": (sine, unit, fit(sine, unit, 6)),
     }
 
 

@@ -2,14 +2,13 @@ from ._compile import fma as fma
 from ._compile import helper as helper
 from ._compile import kernel as kernel
 from ._compile import reverse_bits32 as reverse_bits32
-from ._concentric import disk_point as disk_point
-from ._cosine import cosine_of_turns as cosine_of_turns
 from ._digital_net import BITS as BITS
 from ._digital_net import net_coordinates as net_coordinates
 from ._digits import DIGITS_LIMIT as DIGITS_LIMIT
-from ._digits import fraction as fraction
 from ._digits import largest as largest
+from ._digits import largest_power as largest_power
 from ._digits import numerator as numerator
+from ._digits import primes as primes
 from ._digits import tail_digits as tail_digits
 from ._direction import direction as direction
 from ._double_double import dd_add as dd_add
@@ -20,7 +19,6 @@ from ._double_double import quick_two_sum as quick_two_sum
 from ._double_double import two_difference as two_difference
 from ._double_double import two_product as two_product
 from ._double_double import two_sum as two_sum
-from ._exponential import exp_of_minus as exp_of_minus
 from ._hashing import ONE_MINUS_EPSILON as ONE_MINUS_EPSILON
 from ._hashing import TWO_M32 as TWO_M32
 from ._hashing import TWO_M53 as TWO_M53
@@ -28,6 +26,7 @@ from ._hashing import below as below
 from ._hashing import dimension_key as dimension_key
 from ._hashing import hash_index as hash_index
 from ._hashing import mix64 as mix64
+from ._hashing import random_below as random_below
 from ._hashing import second_key as second_key
 from ._hashing import unit as unit
 from ._mirrored_digits import PERMUTED as PERMUTED
@@ -40,7 +39,6 @@ from ._mirrored_digits import table_size as table_size
 from ._nested_digits import factor_key as factor_key
 from ._nested_digits import fill_nested as fill_nested
 from ._nested_digits import moved_digit as moved_digit
-from ._nested_digits import random_below as random_below
 from ._nested_digits import scrambled_child as scrambled_child
 from ._owen import owen_addend as owen_addend
 from ._owen import owen_factor as owen_factor
@@ -60,8 +58,9 @@ from ._permutation import permute_in_lines as permute_in_lines
 from ._permutation import permute_range as permute_range
 from ._permutation import scatter as scatter
 from ._permutation import shuffle as shuffle
-from ._radical_inverse import largest_power as largest_power
-from ._radical_inverse import primes as primes
+from ._polynomials import cosine_of_turns as cosine_of_turns
+from ._polynomials import disk_point as disk_point
+from ._polynomials import exp_of_minus as exp_of_minus
 from ._stratification import cell_along_axis as cell_along_axis
 from ._stratification import offset_bits as offset_bits
 from ._stratification import place_in_cell as place_in_cell

@@ -5,8 +5,6 @@ other files that it uses, found by walking through its global names. Where no ca
 installation, a home that cannot be written) kernels compile afresh in every process instead of failing.
 """
 
-from __future__ import annotations
-
 import functools
 import hashlib
 import importlib
@@ -22,7 +20,6 @@ import numba
 import numpy as np
 from numba.core import config
 from numba.core import types as numba_types
-from numba.core.dispatcher import Dispatcher
 from numba.extending import intrinsic, overload
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -57,8 +54,7 @@ def kernel(signature: str) -> Callable[[Function], Function]:
     def prepare(function: Function) -> Function:
         if config.DISABLE_JIT:
             return np.errstate(over="ignore")(function)
-        source = cast("types.FunctionType", function)
-        dispatcher = numba.njit(nogil=True, error_model="numpy", no_cfunc_wrapper=True)(source)
+        dispatcher = numba.njit(nogil=True, error_model="numpy", no_cfunc_wrapper=True)(function)
         dispatcher.declared_signature = signature
         # Numba calls this where a dispatcher has no machine code for the arguments.
         dispatcher._compile_for_args = functools.partial(_compile_at_first_call, dispatcher)  # noqa: SLF001 - see above
@@ -97,14 +93,11 @@ class _Helper:
         )(function)
         self._find_for_kinds = self._inlined.get_call_template
         self._inlined.get_call_template = self._find_template
+        # Numba takes this for the helper where a kernel calls it.
+        self._numba_type_ = self._inlined._numba_type_
 
     def __call__(self, *arguments: Any, **keywords: Any) -> Any:
         return self._callable(*arguments, **keywords)
-
-    @property
-    def _numba_type_(self) -> Any:
-        """What numba takes for the helper where a kernel calls it."""
-        return self._inlined._numba_type_
 
     @functools.cached_property
     def _callable(self) -> Callable[..., Any]:
@@ -195,7 +188,7 @@ def _used(function: types.FunctionType, seen: dict[int, object]) -> Iterator[obj
             continue
         seen[id(value)] = value
         yield value
-        inner = value.py_func if isinstance(value, (Dispatcher, _Helper)) else value
+        inner = getattr(value, "py_func", value)
         if isinstance(inner, types.FunctionType):
             yield from _used(inner, seen)
 
@@ -210,7 +203,7 @@ def _names(code: types.CodeType) -> Iterator[str]:
 
 def _content(value: object) -> bytes:
     """Return what a kernel is compiled from where it uses the value."""
-    inner = value.py_func if isinstance(value, (Dispatcher, _Helper)) else value
+    inner = getattr(value, "py_func", value)
     if isinstance(inner, types.FunctionType):
         # The whole file: what numba puts in the place of a function stands beside it.
         return _source(inspect.getfile(inner))

@@ -3,16 +3,10 @@
 Sobol' 1967, "On the distribution of points in a cube and the approximate evaluation of integrals"; Niederreiter 1987.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit.kernels._compile import helper
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _U32 = np.uint32
 

@@ -1,20 +1,37 @@
-"""Coordinates as integer numerators over a power of their base, for randomizers that work on digits."""
+"""Digits in a prime base: the primes, and coordinates as integer numerators over a power of their base."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+from functools import cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit.kernels._compile import helper
 from samplekit.kernels._hashing import second_key
 from samplekit.kernels._stratification import offset_bits
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
 DIGITS_LIMIT = 1 << 45
 """Numerators are below this: float64 holds them with five digits more, and every prime up to 8161 reaches 2^32."""
+
+
+@cache
+def primes(count: int) -> tuple[int, ...]:
+    """The first ``count`` primes, by Eratosthenes' sieve up to n (log n + log log n) (Rosser 1941)."""
+    limit = 15 if count < 6 else int(count * (np.log(count) + np.log(np.log(count)))) + 1
+    sieve = np.ones(limit + 1, bool)
+    sieve[:2] = False
+    for n in range(2, int(limit**0.5) + 1):
+        if sieve[n]:
+            sieve[n * n :: n] = False
+    return tuple(int(p) for p in np.flatnonzero(sieve)[:count])
+
+
+@helper
+def largest_power(base: int, limit: int) -> int:
+    """The largest power of ``base`` that is at most ``limit``."""
+    power = base
+    while power <= limit // base:
+        power *= base
+    return power
 
 
 @helper
@@ -34,12 +51,6 @@ def tail_digits(key: np.uint64, power: int) -> float:
     """
     bits = offset_bits(power)
     return (np.float64(second_key(key ^ np.uint64(power)) >> np.uint64(64 - bits)) + 0.5) * 2.0 ** (-bits)
-
-
-@helper
-def fraction(m: int, tail: float, power: int) -> float:
-    """(m + tail) / power."""
-    return (np.float64(m) + tail) / np.float64(power)
 
 
 @helper

@@ -1,7 +1,5 @@
 """The direction of an angle in degrees."""
 
-from __future__ import annotations
-
 import math
 
 

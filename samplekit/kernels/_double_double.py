@@ -13,15 +13,10 @@ where nothing overflows; products also need a result above 2^-969, else their er
   the algorithms for sum and product below, and their bounds in u = 2^-53.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
+import numpy as np
+from numpy.typing import NDArray
 
 from samplekit.kernels._compile import fma, helper
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
 
 
 @helper

@@ -4,8 +4,6 @@ The mixing function is the finaliser of SplitMix64 (Steele, Lea, Flood 2014, "Fa
 number generators", OOPSLA, figure 15; constants: Stafford's variant 13). It is a bijection of 64-bit words.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from samplekit.kernels._compile import helper
@@ -16,11 +14,6 @@ _M1 = U64(0xBF58476D1CE4E5B9)
 _M2 = U64(0x94D049BB133111EB)
 _DIMENSION = U64(0xD1342543DE82EF95)
 _SECOND = U64(0xA0761D6478BD642F)
-_S31 = U64(31)
-_S30 = U64(30)
-_S27 = U64(27)
-_S11 = U64(11)
-_S32 = U64(32)
 
 TWO_M53 = 2.0**-53
 """2^-53, the distance of neighbouring values of :func:`unit`."""
@@ -33,9 +26,9 @@ ONE_MINUS_EPSILON = 1.0 - 2.0**-53
 @helper
 def mix64(x: np.uint64) -> np.uint64:
     """A bijection of 64-bit words whose output bits depend on all input bits."""
-    x = (x ^ (x >> _S30)) * _M1
-    x = (x ^ (x >> _S27)) * _M2
-    return x ^ (x >> _S31)
+    x = (x ^ (x >> U64(30))) * _M1
+    x = (x ^ (x >> U64(27))) * _M2
+    return x ^ (x >> U64(31))
 
 
 @helper
@@ -57,19 +50,25 @@ def hash_index(key: np.uint64, second: np.uint64, index: np.uint64) -> np.uint64
     Two words of key, so that two realisations never walk along the same sequence at different offsets.
     """
     x = (index + U64(1)) * GOLDEN + key
-    x = (x ^ (x >> _S30)) * _M1
+    x = (x ^ (x >> U64(30))) * _M1
     x = x ^ second
-    x = (x ^ (x >> _S27)) * _M2
-    return x ^ (x >> _S31)
+    x = (x ^ (x >> U64(27))) * _M2
+    return x ^ (x >> U64(31))
 
 
 @helper
 def unit(bits: np.uint64) -> float:
     """The top 53 bits as a float64 in [0, 1 - 2^-53]: exact, never 1."""
-    return np.float64(bits >> _S11) * TWO_M53
+    return np.float64(bits >> U64(11)) * TWO_M53
 
 
 @helper
 def below(bits: np.uint64, bound: np.uint64) -> np.uint64:
     """An integer in [0, bound), bound < 2^32; each value's probability is within 2^-32 of 1/bound."""
-    return ((bits >> _S32) * bound) >> _S32
+    return ((bits >> U64(32)) * bound) >> U64(32)
+
+
+@helper
+def random_below(bits: np.uint64, bound: float) -> float:
+    """An integer from 0 to bound - 1 as a float64, for a ``bound`` of at most 2^45."""
+    return float(np.floor(unit(bits) * bound))

@@ -9,19 +9,21 @@ digits of i + j are the sum of those of i and of j where j is a multiple of a po
 of the first points, and one addition for each later one.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit.kernels._compile import helper, kernel, reverse_bits32
-from samplekit.kernels._digits import DIGITS_LIMIT, largest, tail_digits
-from samplekit.kernels._hashing import TWO_M32, TWO_M53, below, dimension_key, hash_index, mix64, second_key, unit
-from samplekit.kernels._radical_inverse import largest_power
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+from samplekit.kernels._digits import DIGITS_LIMIT, largest, largest_power, tail_digits
+from samplekit.kernels._hashing import (
+    TWO_M32,
+    TWO_M53,
+    below,
+    dimension_key,
+    hash_index,
+    mix64,
+    random_below,
+    second_key,
+)
 
 _U64 = np.uint64
 _U32 = np.uint32
@@ -29,6 +31,8 @@ _DIGITS = _U64(0x5BE0CD19137E2179)
 _ORDER = _U64(0x1F83D9ABFB41BD6B)
 TABLE = 2048
 """Points of a table, at most, or the base where that is larger."""
+_MOST_PLACES = 53
+"""Number of digits of the largest index, in base 2."""
 PLAIN = 0
 """Mode of :func:`fill_mirrored`: the digits as they are."""
 SHIFTED = 1
@@ -55,7 +59,7 @@ def shift_key(key: np.uint64, dimension: int) -> np.uint64:
 @helper
 def shift_numerator(key: np.uint64, power: int) -> int:
     """Return the shift of all digits together as a uniform integer below ``power``."""
-    return int(unit(key) * np.float64(power))
+    return int(random_below(key, np.float64(power)))
 
 
 @helper
@@ -75,13 +79,15 @@ def fill_mirrored(
 ) -> None:
     """Write the points start, start + 1, ...; dimension d has the base ``bases[d]``.
 
-    ``mode``: ``PLAIN``, indices below 2^53 / base and keys of no account; ``SHIFTED`` or ``PERMUTED``, indices below
-    2^32: digit c at place j becomes s_j + c, or s_j + a random permutation of c, modulo the base.
+    ``mode`` is one of three. ``PLAIN``: the digits as they are; indices are below 2^53 / base, and keys are not used.
+    ``SHIFTED``: digit c at place j becomes s_j + c modulo the base; indices are below 2^32. ``PERMUTED``: the same with
+    a random permutation of c in the place of c.
     """
     realizations, dims, points = out.shape
     last = start + points - 1
     largest_base = largest(bases)
     table = np.empty(min(max(TABLE, largest_base), last + 1))
+    steps = np.empty((_MOST_PLACES, min(largest_base, last + 1)))
     order = np.empty(largest_base, np.int64)
     for c in range(largest_base):
         order[c] = c
@@ -92,27 +98,21 @@ def fill_mirrored(
                 word = shift_key(keys[r], d) >> _U64(11)
                 upper = _U32(word >> _U64(21))
                 tail = np.float64(word & _U64(0x1FFFFF)) * TWO_M53
-                row = out[r, d]
                 for i in range(points):
-                    row[i] = np.float64(reverse_bits32(_U32(start + i)) ^ upper) * TWO_M32 + tail
+                    out[r, d, i] = np.float64(reverse_bits32(_U32(start + i)) ^ upper) * TWO_M32 + tail
             continue
         power = largest_power(base, (1 << 53) if mode == PLAIN else DIGITS_LIMIT)
         denominator = np.float64(power)
         size = table_size(base, last)
         length = min(size, last + 1)
-        places = 0
-        rest = last
-        while rest > 0:
-            rest //= base
-            places += 1
-        steps = np.empty((places, min(base, last + 1)))
         for r in range(realizations):
             key = shift_key(keys[r], d)
             root = 0 if mode == PLAIN else shift_numerator(key, power)
             weight = power
             rest = root
+            place = 0
             reach = 1
-            for place in range(places):
+            while reach <= last:
                 weight //= base
                 origin = rest // weight
                 rest -= origin * weight
@@ -125,16 +125,17 @@ def fill_mirrored(
                     if image >= base:
                         image -= base
                     steps[place, c] = np.float64((image - origin) * weight)
+                place += 1
             table[0] = np.float64(root)
             filled = 1
-            place = 0
+            inner = 0
             while filled < length:
                 for c in range(1, min(base, (length - 1) // filled + 1)):
-                    step = steps[place, c]
+                    step = steps[inner, c]
                     for i in range(min(filled, length - c * filled)):
                         table[c * filled + i] = table[i] + step
                 filled *= base
-                place += 1
+                inner += 1
             past = 0.0 if mode == PLAIN else tail_digits(key, power)
             done = 0
             while done < points:
@@ -142,11 +143,7 @@ def fill_mirrored(
                 offset = start + done - block * size
                 run = min(size - offset, points - done)
                 beyond = past
-                place = 0
-                reach = size
-                while reach > 1:
-                    reach //= base
-                    place += 1
+                place = inner
                 while block > 0:
                     beyond += steps[place, block % base]
                     block //= base

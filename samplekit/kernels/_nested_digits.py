@@ -1,37 +1,24 @@
 """Nested uniform scrambling in a base b > 2 (Owen 1995, "Randomly permuted (t,m,s)-nets and (t,s)-sequences").
 
 Point by point, after Helmer, Christensen, Kensler 2021, "Stochastic generation of (t, s) sample sequences": index i
-shares all digits of its scrambled radical inverse with its parent, i without its leading digit c, down to the place of
-c; there it differs; all behind is random. The digit at that place is the parent's plus f c modulo b, f random among
-1, ..., b - 1 for each node of the tree. In a prime base any two digits of a node so go to a uniformly random pair of
-distinct digits, which is all that mean and variance depend on (Owen 2003, "Variance with alternative scramblings of
-digital nets"). Digits are scrambled as those of the index whose mirrored digits they are.
+has a parent, which is i without its leading digit c. Their scrambled radical inverses have the same digits before the
+place of c, and independent random digits after it. At that place the digit of i is that of its parent plus f c modulo
+b, where f is a random number among 1, ..., b - 1 for each node of the tree. In a prime base any two digits of a node
+thus go to a uniformly random pair of distinct digits, and mean and variance depend on nothing else (Owen 2003,
+"Variance with alternative scramblings of digital nets").
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit.kernels._compile import helper, kernel
-from samplekit.kernels._digits import DIGITS_LIMIT, largest, tail_digits
-from samplekit.kernels._hashing import GOLDEN, TWO_M32, hash_index, mix64, second_key, unit
+from samplekit.kernels._digits import DIGITS_LIMIT, largest, largest_power, tail_digits
+from samplekit.kernels._hashing import GOLDEN, TWO_M32, hash_index, mix64, random_below, second_key
 from samplekit.kernels._mirrored_digits import TABLE, table_size
 from samplekit.kernels._owen import owen_addend, owen_factor, owen_key, owen_tail, scramble_reversed, tail_value
-from samplekit.kernels._radical_inverse import largest_power
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _U64 = np.uint64
 _U32 = np.uint32
-
-
-@helper
-def random_below(bits: np.uint64, bound: float) -> float:
-    """An integer from 0 to bound - 1, for a ``bound`` of at most 2^45."""
-    return float(np.floor(unit(bits) * bound))
 
 
 @helper
@@ -57,7 +44,10 @@ def scrambled_child(
     weight: float,
     per_weight: float,
 ) -> float:
-    """The numerator of a child from its parent's: ``step`` added to the digit of ``weight``, all behind it random."""
+    """The numerator of a child from its parent's, with ``step`` added to the digit of ``weight``.
+
+    The digits after it are random: ``tail`` are 64 random bits.
+    """
     head = float(np.floor((numerator + 0.5) * per_weight))
     digit = head - base * float(np.floor((head + 0.5) * per_base))
     return (head - digit + moved_digit(digit, step, base, per_base)) * weight + random_below(tail, weight)
@@ -76,7 +66,7 @@ def _write_children(
     base: float,
     per_base: float,
 ) -> None:
-    """The points parent + digit reach, ... from the points parent, ...; the two arrays may be one."""
+    """Write the points parent + digit reach, ... from the points parent, ...; both arrays may be the same."""
     factors = factor_key(key, reach)
     per_weight = 1.0 / weight
     c = np.float64(digit)
@@ -93,7 +83,6 @@ def fill_nested(out: NDArray[np.float64], keys: NDArray[np.uint64], bases: NDArr
     realizations, dims, points = out.shape
     last = start + points - 1
     table = np.empty(min(max(TABLE, largest(bases)), last + 1))
-    block_points = np.empty(table.size)
     for d in range(dims):
         base = bases[d]
         power = largest_power(base, DIGITS_LIMIT)
@@ -108,10 +97,9 @@ def fill_nested(out: NDArray[np.float64], keys: NDArray[np.uint64], bases: NDArr
                 addend = owen_addend(key)
                 factor = owen_factor(key)
                 tail = tail_value(owen_tail(key))
-                row = out[r, d]
                 for i in range(points):
                     # The index is its mirrored digits with the first in bit 0.
-                    row[i] = np.float64(scramble_reversed(_U32(start + i), addend, factor)) * TWO_M32 + tail
+                    out[r, d, i] = np.float64(scramble_reversed(_U32(start + i), addend, factor)) * TWO_M32 + tail
                 continue
             second = second_key(key)
             tail = tail_digits(key, power)
@@ -130,9 +118,9 @@ def fill_nested(out: NDArray[np.float64], keys: NDArray[np.uint64], bases: NDArr
                 rest = (start + done) // size
                 offset = start + done - rest * size
                 run = min(size - offset, points - done)
-                block = block_points[:run]
+                row = out[r, d, done : done + run]
                 for i in range(run):
-                    block[i] = table[offset + i]
+                    row[i] = table[offset + i]
                 parent = offset
                 reach = size
                 weight = power // size
@@ -141,10 +129,9 @@ def fill_nested(out: NDArray[np.float64], keys: NDArray[np.uint64], bases: NDArr
                     rest //= base
                     weight //= base
                     if c > 0:
-                        _write_children(block, block, parent, c, reach, np.float64(weight), key, second, b, per_base)
+                        _write_children(row, row, parent, c, reach, np.float64(weight), key, second, b, per_base)
                         parent += c * reach
                     reach *= base
-                row = out[r, d, done : done + run]
                 for i in range(run):
-                    row[i] = (block[i] + tail) / denominator
+                    row[i] = (row[i] + tail) / denominator
                 done += run

@@ -8,8 +8,6 @@ nested scrambling allows equally often, so the variance is Owen's. A dimension's
 bits for the digits past the 32nd.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from samplekit.kernels._compile import helper, reverse_bits32
@@ -41,7 +39,7 @@ def owen_factor(key: np.uint64) -> np.uint32:
 
 @helper
 def owen_tail(key: np.uint64) -> np.uint64:
-    """21 random bits, exclusive-ored with the digits after the 32nd: without them every point lies left in its cell."""
+    """21 random bits, exclusive-ored with the digits after the 32nd: zeros leave each point at its cell's left edge."""
     return mix64(key + _TAIL) >> _U64(43)
 
 

@@ -1,4 +1,4 @@
-"""A digital sequence of a few dimensions, scrambled and repeated for as many dimensions as are wanted ("padding").
+"""A digital sequence of a few dimensions, scrambled and repeated for any number of dimensions ("padding").
 
 Each block of dimensions is the same sequence under an Owen scrambling of its own, visited in an order of its own: the
 index, taken as a binary fraction, is Owen-scrambled as well (Burley 2020, "Practical hash-based Owen scrambling",
@@ -6,19 +6,13 @@ section 4). Such a shuffle takes every aligned block of 2^m indices to an aligne
 of 2^m points, and each later aligned block, remains the net that the sequence has there.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit.kernels._compile import helper, kernel, reverse_bits32
 from samplekit.kernels._digital_net import BITS
 from samplekit.kernels._hashing import TWO_M32, dimension_key, mix64
 from samplekit.kernels._owen import owen_addend, owen_factor, owen_key, owen_tail, scramble_reversed, tail_value
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _U32 = np.uint32
 _U64 = np.uint64
@@ -58,29 +52,6 @@ def shuffled_index(index: int, addend: np.uint32, factor: np.uint32) -> np.uint3
     return scramble_reversed(reverse_bits32(_U32(index)), addend, factor)
 
 
-@helper
-def _shuffle(order: NDArray[np.uint32], start: int, key: np.uint64) -> None:
-    addend = owen_addend(key)
-    factor = owen_factor(key)
-    for i in range(order.size):
-        order[i] = shuffled_index(start + i, addend, factor)
-
-
-@helper
-def _gather(coordinates: NDArray[np.uint32], table: NDArray[np.uint32], order: NDArray[np.uint32]) -> None:
-    for i in range(coordinates.size):
-        coordinates[i] = table[order[i] & _U32(GROUP_SIZE - 1)]
-
-
-@helper
-def _scramble(row: NDArray[np.float64], coordinates: NDArray[np.uint32], beyond: np.uint32, key: np.uint64) -> None:
-    addend = owen_addend(key)
-    factor = owen_factor(key)
-    tail = tail_value(owen_tail(key))
-    for i in range(row.size):
-        row[i] = np.float64(scramble_reversed(_U32(coordinates[i] ^ beyond), addend, factor)) * TWO_M32 + tail
-
-
 @kernel("void(float64[:,:,::1], uint64[::1], uint32[:,:,::1], int64, int64)")
 def fill_padded(
     out: NDArray[np.float64],
@@ -91,12 +62,12 @@ def fill_padded(
 ) -> None:
     """Write the points start, start + 1, ...; the first ``unshuffled`` dimensions keep the order of the index.
 
-    ``tables``: as :func:`group_tables` has them; as many dimensions form a block.
+    ``tables`` comes from :func:`group_tables`; its number of dimensions is that of a block.
     """
     realizations, dims, points = out.shape
     block = tables.shape[0]
     order = np.empty(GROUP_SIZE, np.uint32)
-    coordinates = np.empty(GROUP_SIZE, np.uint32)
+    gathered = np.empty(GROUP_SIZE, np.uint32)
     first = 0
     while first < points:
         offset = (start + first) % GROUP_SIZE
@@ -108,14 +79,25 @@ def fill_padded(
             for d in range(dims):
                 s = d % block
                 if s == 0 and d >= unshuffled:
-                    _shuffle(order[:run], start + first, shuffle_key(own, d))
+                    key = shuffle_key(own, d)
+                    addend = owen_addend(key)
+                    factor = owen_factor(key)
+                    for i in range(run):
+                        order[i] = shuffled_index(start + first + i, addend, factor)
                     # A shuffle gives all indices of an aligned block the same upper bits.
                     upper = np.int64(order[0]) >> _GROUP
                 beyond = _U32(tables[s, 1, upper & (GROUP_SIZE - 1)] ^ tables[s, 2, upper >> _GROUP])
+                coordinates = tables[s, 0, offset : offset + run]
+                if d >= unshuffled:
+                    for i in range(run):
+                        gathered[i] = tables[s, 0, order[i] & _U32(GROUP_SIZE - 1)]
+                    coordinates = gathered[:run]
+                key = owen_key(own, d)
+                addend = owen_addend(key)
+                factor = owen_factor(key)
+                tail = tail_value(owen_tail(key))
                 row = out[r, d, first : first + run]
-                if d < unshuffled:
-                    _scramble(row, tables[s, 0, offset : offset + run], beyond, owen_key(own, d))
-                else:
-                    _gather(coordinates[:run], tables[s, 0], order)
-                    _scramble(row, coordinates, beyond, owen_key(own, d))
+                for i in range(run):
+                    x = _U32(coordinates[i] ^ beyond)
+                    row[i] = np.float64(scramble_reversed(x, addend, factor)) * TWO_M32 + tail
         first += run

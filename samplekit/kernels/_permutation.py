@@ -5,17 +5,11 @@ Above: a keyed bijection of the next power of two, walked until it falls inside 
 the idea of hashing an index to its place is Kensler's, "Correlated Multi-Jittered Sampling", Pixar 13-01, 2013).
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit.kernels._compile import helper
 from samplekit.kernels._hashing import below, hash_index, mix64, second_key
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _U64 = np.uint64
 _U32 = np.uint32
@@ -93,7 +87,7 @@ def permute(index: int, count: int, bits: int, key: np.uint64) -> int:
 
 @helper
 def permute_range(place: NDArray[np.int64], start: int, count: int, bits: int, key: np.uint64) -> None:
-    """The places of start, start + 1, ... as :func:`permute` has them, many at a time."""
+    """Write what :func:`permute` returns for start, start + 1, ..., in a loop that vectorises."""
     for i in range(place.size):
         place[i] = scatter(_U32(start + i), bits, key)
     if count == 1 << bits:

@@ -4,11 +4,10 @@
 Here r has so few bits that i + r is exact and stays farther from both ends of the cell than the quotient's rounding.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from samplekit.kernels._compile import helper
+from samplekit.kernels._permutation import permutation_bits
 
 _U64 = np.uint64
 
@@ -16,11 +15,7 @@ _U64 = np.uint64
 @helper
 def offset_bits(cells: int) -> int:
     """Number of random bits that a place within one of ``cells`` cells has: 50 less the bits of the cell's index."""
-    bits = 50
-    while cells > 1:
-        cells = (cells + 1) >> 1
-        bits -= 1
-    return bits
+    return 50 - permutation_bits(cells) if cells > 1 else 50
 
 
 @helper

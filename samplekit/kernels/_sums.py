@@ -6,20 +6,16 @@ summation). The error is at most 27 roundings of the sum of magnitudes and one f
 blocks. In one long run roundings of like values all go the same way: 1024 equal values would lose 30 of them.
 """
 
-from __future__ import annotations
+from typing import Self
 
-from typing import TYPE_CHECKING
-
+import numpy as np
 from llvmlite import ir
 from numba.core import cgutils
 from numba.core import types as numba_types
 from numba.extending import intrinsic, overload
+from numpy.typing import NDArray
 
 from samplekit.kernels._compile import kernel
-
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
 
 BLOCK = 1024
 """Number of samples whose sum a scene gives at once."""
@@ -105,7 +101,7 @@ class PairwiseSum:
         self._levels: list[NDArray[np.float64] | None] = []
 
     @classmethod
-    def of_equal(cls, block_sums: NDArray[np.float64], number: int) -> PairwiseSum:
+    def of_equal(cls, block_sums: NDArray[np.float64], number: int) -> Self:
         """Add ``number`` blocks of the same sums float64[P], in the time of log2(number) additions."""
         made, power = cls(), block_sums.copy()
         for level in range(number.bit_length()):

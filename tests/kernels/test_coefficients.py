@@ -6,17 +6,11 @@ from pathlib import Path
 import mpmath
 import pytest
 
-from samplekit.kernels import _concentric as concentric
-from samplekit.kernels import _cosine as cosine
-from samplekit.kernels import _exponential as exponential
+from samplekit.kernels import _polynomials as polynomials
 
 _spec = importlib.util.spec_from_file_location("coefficients", Path(__file__).parents[2] / "benchmarks/coefficients.py")
 script = importlib.util.module_from_spec(_spec)
 _spec.loader.exec_module(script)
-
-
-def numbered(module, first, last):
-    return [getattr(module, f"_C{power}") for power in range(first, last + 1)]
 
 
 @pytest.fixture(scope="module")
@@ -26,13 +20,8 @@ def tables():
 
 
 def test_fitted_coefficients_are_those_of_the_kernels(tables):
-    in_use = [
-        [1.0, *numbered(cosine, 1, 10)],
-        [1.0, 1.0, *numbered(exponential, 2, 11)],
-        list(concentric._COSINE),
-        list(concentric._SINE),
-    ]
-    assert [coefficients for _, _, coefficients in tables.values()] == in_use
+    in_use = [polynomials._COSINE_OF_TURNS, polynomials._EXPONENTIAL, polynomials._COSINE, polynomials._SINE]
+    assert [tuple(reversed(coefficients)) for _, _, coefficients in tables.values()] == in_use
 
 
 @pytest.mark.parametrize(("number", "bound"), [(0, 3.8e-17), (1, 5e-18), (2, 6e-17), (3, 6e-17)])

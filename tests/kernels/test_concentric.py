@@ -2,7 +2,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from samplekit.kernels._concentric import disk_point
+from samplekit.kernels._polynomials import disk_point
 
 
 def in_mpmath(u, v):

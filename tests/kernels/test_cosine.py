@@ -2,7 +2,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from samplekit.kernels._cosine import cosine_of_turns
+from samplekit.kernels._polynomials import cosine_of_turns
 
 RANDOM = np.random.default_rng(1)
 

@@ -8,8 +8,7 @@ import pytest
 from samplekit import Realizations
 from samplekit._builtin.randomizers.owen import Owen
 from samplekit._builtin.randomizers.xor import Xor
-from samplekit.kernels._digits import DIGITS_LIMIT
-from samplekit.kernels._radical_inverse import largest_power
+from samplekit.kernels._digits import DIGITS_LIMIT, largest_power
 
 
 @pytest.mark.parametrize("randomizer", [Xor, Owen])

@@ -4,7 +4,7 @@ import mpmath
 import numpy as np
 import pytest
 
-from samplekit.kernels._exponential import exp_of_minus
+from samplekit.kernels._polynomials import exp_of_minus
 
 RANDOM = np.random.default_rng(1)
 

@@ -3,8 +3,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+from samplekit.kernels._digits import primes
 from samplekit.kernels._mirrored_digits import PLAIN, fill_mirrored
-from samplekit.kernels._radical_inverse import primes
 
 BASES = sorted({*range(2, 1001), *primes(1024)})
 

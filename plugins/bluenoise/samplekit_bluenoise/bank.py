@@ -5,26 +5,20 @@ spectrum, and make any set unbiased; fresh sets get them for that reason. A bank
 the count, not on the seed: it is made once, and kept across runs.
 """
 
-from __future__ import annotations
-
 import os
 import threading
 from collections import OrderedDict
-from concurrent.futures import ThreadPoolExecutor, as_completed
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit import Realizations, Sampler
 from samplekit.files import cached_array
 from samplekit.kernels import below, hash_index, kernel, mix64, second_key, unit
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 VERSION = 1
 """Part of a bank's key: raise it when the points of any sampler here change."""
@@ -45,7 +39,7 @@ _banks: OrderedDict[str, Array] = OrderedDict()
 def _place(out: Array, sets: Array, keys: NDArray[np.uint64], start: int, shared: bool) -> None:
     """Write points of set r, or with ``shared`` of a random set, under the shift and symmetry of realisation r.
 
-    ``sets`` float64[S, 2, N] may be ``out`` itself.
+    ``sets`` float64[S, 2, N].
     """
     realizations, _, points = out.shape
     for r in range(realizations):
@@ -94,10 +88,9 @@ class WholeSets(Sampler):
         rows = max(1, _FRESH_POINTS // count)
         for first in range(0, len(realizations), rows):
             some = realizations[first : first + rows]
-            part = out[first : first + rows]
-            sets = part if part.shape[2] == count else np.empty((len(some), 2, count))
+            sets = np.empty((len(some), 2, count))
             self.make(sets, some)
-            _place(part, sets, some.keys, start, False)
+            _place(out[first : first + rows], sets, some.keys, start, False)
 
     def prepare(self, count: int, dims: int, progress: Callable[[int, int], None]) -> None:
         """Make or load the bank; see :meth:`samplekit.Sampler.prepare`."""
@@ -138,14 +131,9 @@ class WholeSets(Sampler):
         realizations = Realizations.of_trials(0, shape[0], _SEED)
         progress(0, shape[0])
         with ThreadPoolExecutor(os.cpu_count()) as pool:
-            jobs = [pool.submit(self.make, sets[k : k + 1], realizations[k : k + 1]) for k in range(shape[0])]
-            try:
-                for done, job in enumerate(as_completed(jobs), 1):
-                    job.result()
-                    progress(done, shape[0])
-            except BaseException:
-                pool.shutdown(wait=False, cancel_futures=True)
-                raise
+            made = pool.map(lambda k: self.make(sets[k : k + 1], realizations[k : k + 1]), range(shape[0]))
+            for done, _ in enumerate(made, 1):
+                progress(done, shape[0])
         return sets
 
 

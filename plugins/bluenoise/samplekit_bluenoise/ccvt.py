@@ -10,24 +10,17 @@ differ from the paper:
   points.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
+from samplekit import Realizations
 from samplekit_bluenoise.bank import WholeSets
 from samplekit_bluenoise.strata import scatter, split
 from samplekit_bluenoise.swaps import settle
 from samplekit_bluenoise.territories import cut_open, divide
 from samplekit_bluenoise.torus import finish
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from samplekit import Realizations
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _COARSEST = 8
 """Smallest number of background points per site at which sites are left to settle."""

@@ -16,23 +16,17 @@ that jams before its last point is thrown away whole and begun anew.
 Coordinates are 32-bit fractions: their differences wrap around by themselves, and a large set takes half the memory.
 """
 
-from __future__ import annotations
-
 import math
-from typing import TYPE_CHECKING
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit.kernels import TWO_M32, below, dimension_key, hash_index, helper, kernel, second_key
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _U64 = np.uint64
-_LOW = _U64(0xFFFFFFFF)
-_S32 = _U64(32)
 
 MOST_ATTEMPTS = 100
 """Number of sets begun for one realisation before giving up."""
@@ -53,13 +47,25 @@ _COLUMN = 2**_ROW - 1
 _ONE = 2.0**32
 
 
-def cells_per_axis(count: int, distance: float) -> int:
+class _Disks(NamedTuple):
+    """The disks that were placed, and for each cell of the grid a linked list of those in it."""
+
+    points: NDArray[np.uint32]
+    """The centres, uint32[N, 2]."""
+    head: NDArray[np.int32]
+    """The last disk of the cell in (row, column), or -1."""
+    following: NDArray[np.int32]
+    """The disk that was placed in the same cell before, or -1."""
+
+
+@helper
+def _cells_per_axis(count: int, distance: float) -> int:
     """Return the side of a grid whose cells are no narrower than the distance: conflicts lie in 3 x 3 cells.
 
     The side is 1 where fewer than 3 cells would fit; where the distance is small there are about as many cells as
     points.
     """
-    side = math.floor(min(1.0 / (distance + _MARGIN), math.ceil(math.sqrt(count))))
+    side = int(min(1.0 / (distance + _MARGIN), np.ceil(math.sqrt(count))))
     return side if side >= 3 else 1
 
 
@@ -77,87 +83,61 @@ def _around(cell: np.int64, step: np.int64, side: int) -> np.int64:
 
 
 @helper
-def _is_free(
-    x: np.int64,
-    y: np.int64,
-    column: np.int64,
-    row: np.int64,
-    least: float,
-    points: NDArray[np.uint32],
-    head: NDArray[np.int32],
-    following: NDArray[np.int32],
-) -> bool:
-    """Return whether no point in the cells around (column, row) is closer to (x, y) than the root of ``least``."""
-    side = head.shape[0]
+def _place_if_free(
+    x: np.int64, y: np.int64, column: np.int64, row: np.int64, least: float, placed: int, disks: _Disks
+) -> int:
+    """Place a disk at (x, y), in cell (column, row), unless one is closer than the root of ``least``.
+
+    Return the new number of disks; ``placed`` is the number before.
+    """
+    side = disks.head.shape[0]
     for k in range(9 if side > 1 else 1):
         i = _around(column, _NEAR[k, 0], side)
         j = _around(row, _NEAR[k, 1], side)
-        p = head[j, i]
+        p = disks.head[j, i]
         while p >= 0:
-            dx = _wrapped(x - points[p, 0])
-            dy = _wrapped(y - points[p, 1])
+            dx = _wrapped(x - disks.points[p, 0])
+            dy = _wrapped(y - disks.points[p, 1])
             if dx * dx + dy * dy < least:
-                return False
-            p = following[p]
-    return True
-
-
-@helper
-def _keep(
-    placed: int,
-    x: np.int64,
-    y: np.int64,
-    column: np.int64,
-    row: np.int64,
-    points: NDArray[np.uint32],
-    head: NDArray[np.int32],
-    following: NDArray[np.int32],
-) -> int:
-    """Add a point to the ``placed`` points and to the list of its cell; return the new number of points."""
-    points[placed, 0] = x
-    points[placed, 1] = y
-    following[placed] = head[row, column]
-    head[row, column] = placed
+                return placed
+            p = disks.following[p]
+    disks.points[placed, 0] = x
+    disks.points[placed, 1] = y
+    disks.following[placed] = disks.head[row, column]
+    disks.head[row, column] = placed
     return placed + 1
 
 
 @helper
 def _split(
-    column: np.int64,
-    row: np.int64,
-    splits: int,
-    width: float,
-    least: float,
-    points: NDArray[np.uint32],
-    head: NDArray[np.int32],
-    following: NDArray[np.int32],
-    cells: NDArray[np.int64],
-    kept: int,
+    cell: np.int64, splits: int, width: float, least: float, disks: _Disks, cells: NDArray[np.int64], kept: int
 ) -> int:
-    """Append the quarters of cell (column, row) that no single disk covers to the first ``kept`` cells.
+    """Append the quarters of a cell that no single disk covers to the first ``kept`` of ``cells``.
 
-    Quarters are ``width`` wide. Return the new number of cells.
+    The cell was split ``splits`` times; quarters are ``width`` wide. Return the new number of cells.
     """
-    side = head.shape[0]
+    side = disks.head.shape[0]
+    column = cell & _COLUMN
+    row = cell >> _ROW
     x = np.int64((2 * column + 1) * width)
     y = np.int64((2 * row + 1) * width)
     covered = np.int64(0)
     for k in range(9 if side > 1 else 1):
         i = _around(column >> splits, _NEAR[k, 0], side)
         j = _around(row >> splits, _NEAR[k, 1], side)
-        p = head[j, i]
+        p = disks.head[j, i]
         while p >= 0:
             # A quarter is covered if its farthest corner is. Across the torus these distances are too large, which only
             # leaves a covered quarter in the list.
-            dx = _wrapped(points[p, 0] - x)
-            dy = _wrapped(points[p, 1] - y)
+            dx = _wrapped(disks.points[p, 0] - x)
+            dy = _wrapped(disks.points[p, 1] - y)
             left = max(abs(dx), abs(dx + width)) ** 2
             right = max(abs(dx), abs(dx - width)) ** 2
             upper = max(abs(dy), abs(dy + width)) ** 2
             lower = max(abs(dy), abs(dy - width)) ** 2
             covered |= (left + upper < least) | (right + upper < least) << 1
             covered |= (left + lower < least) << 2 | (right + lower < least) << 3
-            p = following[p]
+            p = disks.following[p]
         if covered == 15:
             return kept
     for quarter in range(4):
@@ -167,8 +147,8 @@ def _split(
     return kept
 
 
-@kernel("int64(float64[:,:,::1], uint64[::1], float64, int64)")
-def throw_darts(out: Array, keys: NDArray[np.uint64], distance: float, side: int) -> int:
+@kernel("int64(float64[:,:,::1], uint64[::1], float64)")
+def throw_darts(out: Array, keys: NDArray[np.uint64], distance: float) -> int:
     """Write sets of points no two of which are closer than ``distance``, in the order in which they were accepted.
 
     Parameters
@@ -179,8 +159,6 @@ def throw_darts(out: Array, keys: NDArray[np.uint64], distance: float, side: int
         uint64[R].
     distance
         Smallest distance of two points on the torus.
-    side
-        Side of the grid that finds conflicts: see :func:`cells_per_axis`.
 
     Returns
     -------
@@ -188,9 +166,9 @@ def throw_darts(out: Array, keys: NDArray[np.uint64], distance: float, side: int
     """
     realizations, _, count = out.shape
     least = (distance * _ONE) ** 2
+    side = _cells_per_axis(count, distance)
     head = np.empty((side, side), np.int32)
-    following = np.empty(count, np.int32)
-    points = np.empty((count, 2), np.uint32)
+    disks = _Disks(np.empty((count, 2), np.uint32), head, np.empty(count, np.int32))
     handful = np.empty((_HANDFUL, 3), np.int64)
     for r in range(realizations):
         placed = 0
@@ -204,8 +182,8 @@ def throw_darts(out: Array, keys: NDArray[np.uint64], distance: float, side: int
             while placed < count and thrown - placed <= most:
                 for k in range(_HANDFUL):
                     bits = hash_index(key, second, _U64(thrown + k))
-                    x = np.int64(bits >> _S32)
-                    y = np.int64(bits & _LOW)
+                    x = np.int64(bits >> _U64(32))
+                    y = np.int64(bits & _U64(0xFFFFFFFF))
                     handful[k, 0] = x
                     handful[k, 1] = y
                     # The value is not used; reading it fetches the cells of the whole handful from memory together.
@@ -214,21 +192,25 @@ def throw_darts(out: Array, keys: NDArray[np.uint64], distance: float, side: int
                 for k in range(_HANDFUL):
                     x = handful[k, 0]
                     y = handful[k, 1]
-                    column = (x * side) >> 32
-                    row = (y * side) >> 32
-                    if placed < count and _is_free(x, y, column, row, least, points, head, following):
-                        placed = _keep(placed, x, y, column, row, points, head, following)
+                    if placed < count:
+                        placed = _place_if_free(x, y, (x * side) >> 32, (y * side) >> 32, least, placed, disks)
             if placed == count:
                 break
-            width = 0.5 * _ONE / side
-            active = 0
-            cells = np.empty(4 * side * side, np.int64)
-            for j in range(side):
-                for i in range(side):
-                    active = _split(np.int64(i), np.int64(j), 0, width, least, points, head, following, cells, active)
+            width = _ONE / side
+            active = side * side
+            cells = np.empty(active, np.int64)
+            for k in range(active):
+                cells[k] = (k // side) << _ROW | (k % side)
             key_cell = dimension_key(keys[r], 2 * attempt + 1)
             second_cell = second_key(key_cell)
             for splits in range(1, _SPLITS + 1):
+                width *= 0.5
+                quarters = np.empty(4 * active, np.int64)
+                kept = 0
+                for k in range(active):
+                    kept = _split(cells[k], splits - 1, width, least, disks, quarters, kept)
+                cells = quarters
+                active = kept
                 misses = 0
                 while placed < count and active > 0 and misses <= _MISSES_IN_LIST * active:
                     pick = np.int64(below(hash_index(key_cell, second_cell, _U64(thrown)), _U64(active)))
@@ -236,31 +218,19 @@ def throw_darts(out: Array, keys: NDArray[np.uint64], distance: float, side: int
                     thrown += 1
                     column = cells[pick] & _COLUMN
                     row = cells[pick] >> _ROW
-                    x = np.int64((column + np.float64(bits >> _S32) * TWO_M32) * width)
-                    y = np.int64((row + np.float64(bits & _LOW) * TWO_M32) * width)
-                    column >>= splits
-                    row >>= splits
-                    if _is_free(x, y, column, row, least, points, head, following):
-                        placed = _keep(placed, x, y, column, row, points, head, following)
-                    else:
-                        misses += 1
-                # The list outgrows its first size only if the random numbers are no random numbers.
-                if placed == count or active == 0 or active > 4 * side * side or splits == _SPLITS:
+                    x = np.int64((column + np.float64(bits >> _U64(32)) * TWO_M32) * width)
+                    y = np.int64((row + np.float64(bits & _U64(0xFFFFFFFF)) * TWO_M32) * width)
+                    before = placed
+                    placed = _place_if_free(x, y, column >> splits, row >> splits, least, placed, disks)
+                    misses += placed == before
+                # With random numbers the list never grows so long; with constant ones, as a check makes them, it may.
+                if placed == count or active > 4 * side * side:
                     break
-                width *= 0.5
-                quarters = np.empty(4 * active, np.int64)
-                kept = 0
-                for k in range(active):
-                    column = cells[k] & _COLUMN
-                    row = cells[k] >> _ROW
-                    kept = _split(column, row, splits, width, least, points, head, following, quarters, kept)
-                cells = quarters
-                active = kept
             if placed == count:
                 break
         if placed < count:
             return r
         for d in range(2):
             for i in range(count):
-                out[r, d, i] = points[i, d] * TWO_M32
+                out[r, d, i] = disks.points[i, d] * TWO_M32
     return int(realizations)

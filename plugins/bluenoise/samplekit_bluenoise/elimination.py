@@ -14,20 +14,15 @@ No distance is promised: it is about 0.7 of the densest packing's, but a close p
 about one of a thousand sets of 16 points.
 """
 
-from __future__ import annotations
-
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit.kernels import dimension_key, hash_index, helper, kernel, second_key, unit
 from samplekit_bluenoise.torus import wrapped
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _U64 = np.uint64
 CANDIDATES = 5
@@ -82,7 +77,7 @@ def _eliminate(
     least = span * (1.0 - ratio * math.sqrt(ratio)) * _BETA
     side = int(1.0 / span)
     side = side if side >= 3 else 1
-    steps = 3 if side > 1 else 1
+    steps = min(side, 3)
     head[: side * side] = -1
     for k in range(size):
         p = heap[k]
@@ -109,9 +104,9 @@ def _eliminate(
         column = int(points[p, 0] * side)
         row = int(points[p, 1] * side)
         for v in range(steps):
-            j = row if steps == 1 else (row + v + side - 1) % side
+            j = (row + v + side - 1) % side
             for u in range(steps):
-                i = column if steps == 1 else (column + u + side - 1) % side
+                i = (column + u + side - 1) % side
                 q = head[j * side + i]
                 while q >= 0:
                     if q != p and place[q] < alive:
@@ -153,14 +148,14 @@ def eliminate(out: Array, keys: NDArray[np.uint64]) -> None:
         points = points[np.argsort(np.floor(points[:, 1] * rows) + points[:, 0], kind="mergesort")]
         for i in range(size):
             heap[i] = i
-        _eliminate(points, heap, size, count, place, weights, head, following)
-        left = count
+        left = size
+        target = count
         while left > 1:
-            half = 1
-            while 2 * half < left:
-                half *= 2
-            _eliminate(points, heap, left, half, place, weights, head, following)
-            left = half
+            _eliminate(points, heap, left, target, place, weights, head, following)
+            left = target
+            target = 1
+            while 2 * target < left:
+                target *= 2
         for i in range(count):
             out[r, 0, i] = points[heap[i], 0]
             out[r, 1, i] = points[heap[i], 1]

@@ -8,25 +8,18 @@ of 3.2 and a trough of 0.3 behind it (N = 256), the same in all directions. Afte
 into hexagons and alias.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
+from samplekit import Realizations
 from samplekit_bluenoise import DEFAULT_RADIUS
 from samplekit_bluenoise.bank import WholeSets
-from samplekit_bluenoise.darts import cells_per_axis, throw_darts
+from samplekit_bluenoise.darts import throw_darts
 from samplekit_bluenoise.strata import scatter
 from samplekit_bluenoise.torus import finish, packing_distance
 from samplekit_bluenoise.voronoi import relax
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from samplekit import Realizations
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 
 class Lloyd(WholeSets):
@@ -59,6 +52,5 @@ class Lloyd(WholeSets):
         else:
             # Random points are disks of radius 0.
             radius = DEFAULT_RADIUS if self._initial == "poisson-disk" else 0.0
-            distance = radius * packing_distance(count)
-            throw_darts(sets, realizations.keys, distance, cells_per_axis(count, distance))
+            throw_darts(sets, realizations.keys, radius * packing_distance(count))
         relax(sets, self._steps)

@@ -1,24 +1,18 @@
 """Poisson-disk sampling: random points that keep their distance, by dart throwing or by sample elimination."""
 
-from __future__ import annotations
-
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
-from samplekit import MinimumDistance, UsageError
+import numpy as np
+from numpy.typing import NDArray
+
+from samplekit import MinimumDistance, Realizations, SamplerSpec, UsageError
 from samplekit_bluenoise import DEFAULT_RADIUS
 from samplekit_bluenoise.bank import WholeSets
-from samplekit_bluenoise.darts import MOST_ATTEMPTS, cells_per_axis, throw_darts
+from samplekit_bluenoise.darts import MOST_ATTEMPTS, throw_darts
 from samplekit_bluenoise.elimination import eliminate
 from samplekit_bluenoise.torus import packing_distance
 
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    from samplekit import Realizations, SamplerSpec
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _MARGIN = 1e-9
 """Relative margin of darts over the promised distance, since other ways to compute distances round differently."""
@@ -62,7 +56,7 @@ class PoissonDisk(WholeSets):
             return
         count = sets.shape[2]
         distance = self._radius * packing_distance(count) * (1.0 + _MARGIN)
-        made = throw_darts(sets, realizations.keys, distance, cells_per_axis(count, distance))
+        made = throw_darts(sets, realizations.keys, distance)
         if made < len(realizations):
             raise UsageError(
                 f"poisson-disk:radius={self._radius}: random disks left no room for {count} points in {MOST_ATTEMPTS} "

@@ -4,23 +4,16 @@ The strata form about sqrt(N) rows. The height of a row is its share of the stra
 wide, so that any N will do.
 """
 
-from __future__ import annotations
-
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit.kernels import TWO_M32, hash_index, helper, kernel, second_key
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _U64 = np.uint64
-_LOW = _U64(0xFFFFFFFF)
-_S32 = _U64(32)
 
 
 @helper
@@ -29,15 +22,9 @@ def _rows(strata: int) -> int:
 
 
 @helper
-def _high(bits: np.uint64) -> float:
-    """Return the high 32 bits as a number at least 2^-33 from 0 and 1: rounding keeps it in its stratum."""
-    return (np.float64(bits >> _S32) + 0.5) * TWO_M32
-
-
-@helper
-def _low(bits: np.uint64) -> float:
-    """Return the low 32 bits as such a number."""
-    return (np.float64(bits & _LOW) + 0.5) * TWO_M32
+def _place(bits: np.uint64) -> float:
+    """Return 32 bits as a number at least 2^-33 from 0 and 1: rounding keeps it in its stratum."""
+    return (np.float64(bits) + 0.5) * TWO_M32
 
 
 @kernel("void(float64[:,::1], uint64)")
@@ -51,8 +38,8 @@ def scatter(points: Array, key: np.uint64) -> None:
         width = (row + 1) * count // rows - first
         for i in range(first, first + width):
             bits = hash_index(key, second, _U64(i))
-            points[0, i] = (i - first + _high(bits)) / width
-            points[1, i] = (first + _low(bits) * width) / count
+            points[0, i] = (i - first + _place(bits >> _U64(32))) / width
+            points[1, i] = (first + _place(bits & _U64(0xFFFFFFFF)) * width) / count
 
 
 @kernel("void(float64[:,::1], float64[:,::1], int64, uint64)")
@@ -90,7 +77,7 @@ def split(finer: Array, points: Array, splits: int, key: np.uint64) -> None:
         line = np.floor((y - first) / width * parts)
         for quarter in range(4):
             bits = hash_index(key, second, _U64(4 * k + quarter))
-            finer[0, 4 * k + quarter] = (2.0 * column + (quarter & 1) + _high(bits)) / (2 * parts * width)
+            finer[0, 4 * k + quarter] = (2.0 * column + (quarter & 1) + _place(bits >> _U64(32))) / (2 * parts * width)
             finer[1, 4 * k + quarter] = (
-                first + (2.0 * line + (quarter >> 1) + _low(bits)) / (2 * parts) * width
+                first + (2.0 * line + (quarter >> 1) + _place(bits & _U64(0xFFFFFFFF))) / (2 * parts) * width
             ) / strata

@@ -6,21 +6,16 @@ pairs that cannot gain are left out: those in which neither site changed since t
 than the sum of their radii, the distances to their farthest points.
 """
 
-from __future__ import annotations
-
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit.kernels import helper, kernel
 from samplekit_bluenoise.territories import select
 from samplekit_bluenoise.torus import sort_into_cells, wrapped
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _TOLERANCE = 1e-12
 """Smallest gain of a swap, in units of 1 / N: without it rounding could swap the same points for ever."""
@@ -51,10 +46,10 @@ def _radius(s: int, sites: Array, points: Array) -> float:
 
 
 @helper
-def _swap(s: int, t: int, sites: Array, points: Array, values: Array, room: Array) -> bool:
+def _swap(s: int, t: int, sites: Array, points: Array, values: Array, room: Array, place: NDArray[np.int64]) -> bool:
     """Give each point of two sites to the site where it belongs; return whether any changed hands.
 
-    ``values`` float64[2, 2 capacity] and ``room`` float64[2, 2 capacity] are workspace.
+    ``values`` float64[2, 2 capacity], ``room`` float64[2, 2 capacity] and ``place`` int64[2 capacity] are workspace.
     """
     capacity = points.shape[1] // sites.shape[1]
     # How much farther each point is from s than from t: first the points of s, then those of t.
@@ -77,26 +72,20 @@ def _swap(s: int, t: int, sites: Array, points: Array, values: Array, room: Arra
     count = 0
     of_s = 0
     for half in range(2):
+        of_s = count
         first = (t if half else s) * capacity
         for k in range(capacity):
             value = values[0, half * capacity + k]
             if value < most if half else value > least:
                 values[1, count] = value
+                place[count] = first + k
                 room[0, count] = points[0, first + k]
                 room[1, count] = points[1, first + k]
                 count += 1
-        if half == 0:
-            of_s = count
     select(values[1], room, 0, count, of_s)
-    count = 0
-    for half in range(2):
-        first = (t if half else s) * capacity
-        for k in range(capacity):
-            value = values[0, half * capacity + k]
-            if value < most if half else value > least:
-                points[0, first + k] = room[0, count]
-                points[1, first + k] = room[1, count]
-                count += 1
+    for k in range(count):
+        points[0, place[k]] = room[0, k]
+        points[1, place[k]] = room[1, k]
     return True
 
 
@@ -121,9 +110,7 @@ def settle(sites: Array, points: Array, sweeps: int) -> int:
     capacity = points.shape[1] // count
     values = np.empty((2, 2 * capacity))
     room = np.empty((2, 2 * capacity))
-    side = max(1, int(math.sqrt(count)))
-    head = np.empty(side * side, np.int64)
-    following = np.empty(count, np.int64)
+    place = np.empty(2 * capacity, np.int64)
     radius = np.empty(count)
     changed = np.empty(count, np.bool_)
     before = np.empty(count, np.bool_)
@@ -132,7 +119,8 @@ def settle(sites: Array, points: Array, sweeps: int) -> int:
         _move_to_centroid(s, sites, points)
         radius[s] = _radius(s, sites, points)
     for sweep in range(sweeps):
-        sort_into_cells(sites, side, head, following)
+        head, following = sort_into_cells(sites)
+        side = head.shape[0]
         widest = 0.0
         for s in range(count):
             changed[s] = False
@@ -146,13 +134,13 @@ def settle(sites: Array, points: Array, sweeps: int) -> int:
                 j = (row + v) % side
                 for u in range(span):
                     i = (column + u) % side
-                    t = head[j * side + i]
+                    t = head[j, i]
                     while t >= 0:
                         if t > s and (before[s] or before[t] or changed[s] or changed[t]):
                             dx = wrapped(sites[0, s] - sites[0, t])
                             dy = wrapped(sites[1, s] - sites[1, t])
                             near = dx * dx + dy * dy < (radius[s] + radius[t]) ** 2
-                            if near and _swap(s, t, sites, points, values, room):
+                            if near and _swap(s, t, sites, points, values, room, place):
                                 changed[s] = changed[t] = True
                                 radius[s] = _radius(s, sites, points)
                                 radius[t] = _radius(t, sites, points)

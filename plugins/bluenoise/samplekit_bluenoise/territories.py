@@ -6,18 +6,12 @@ along them: division along the axes ended on a square lattice, and a torus cut o
 the two axes of the spectrum a third more power than the rest of its ring.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit.kernels import hash_index, helper, kernel, second_key, unit
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _U64 = np.uint64
 _DEEPEST = 64

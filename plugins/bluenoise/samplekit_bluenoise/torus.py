@@ -4,19 +4,14 @@ Coordinates of finished sets are multiples of 2^-53 in [0, 1). So reflections, a
 in float64: they move a set without changing the last bit of any distance.
 """
 
-from __future__ import annotations
-
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit.kernels import helper, kernel, shuffle
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _GRID = 2.0**53
 _STEP = 2.0**-53
@@ -42,17 +37,27 @@ def on_torus(x: float) -> float:
 
 
 @helper
-def sort_into_cells(points: Array, side: int, head: NDArray[np.int64], following: NDArray[np.int64]) -> None:
-    """Sort ``points`` float64[2, N] into a grid of ``side`` cells along each axis.
+def sort_into_cells(points: Array) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """Sort ``points`` float64[2, N] into a grid with about as many cells as points.
 
-    The points of cell (column, row) form a linked list: head[row * side + column] is the first, following[i] is the one
-    after i, and -1 ends the list.
+    Returns
+    -------
+    head
+        int64[side, side]: the first point of the cell in (row, column), or -1.
+    following
+        int64[N]: the next point of the same cell, or -1.
     """
-    head[: side * side] = -1
-    for i in range(points.shape[1]):
-        cell = int(points[1, i] * side) * side + int(points[0, i] * side)
-        following[i] = head[cell]
-        head[cell] = i
+    count = points.shape[1]
+    side = max(1, int(math.sqrt(count)))
+    head = np.empty((side, side), np.int64)
+    head[:] = -1
+    following = np.empty(count, np.int64)
+    for i in range(count):
+        column = int(points[0, i] * side)
+        row = int(points[1, i] * side)
+        following[i] = head[row, column]
+        head[row, column] = i
+    return head, following
 
 
 @kernel("void(float64[:,::1], float64[:,::1], uint64)")

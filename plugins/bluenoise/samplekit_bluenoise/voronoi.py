@@ -6,30 +6,24 @@ points in neighbouring copies of the torus count as points, so that any number o
 single point is the unit square.
 """
 
-from __future__ import annotations
-
-import math
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit.kernels import helper, kernel
 from samplekit_bluenoise.torus import on_torus, sort_into_cells
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _MOST_CORNERS = 1024
 """Room for the corners of a cell; among random points more than 20 hardly ever occur."""
 
 
 @helper
-def _cut(corners: Array, kept: Array, size: int, x: float, y: float) -> int:
-    """Cut a convex polygon around the origin along the bisector with (x, y); return its new number of corners.
+def _cut(corners: Array, kept: Array, size: int, x: float, y: float) -> tuple[int, float]:
+    """Cut a convex polygon around the origin along the bisector with (x, y).
 
     The polygon is the first ``size`` of ``corners`` float64[K, 2]; ``kept`` is workspace (Sutherland, Hodgman 1974).
+    Return its new number of corners, and the square of the distance of the farthest.
     """
     half = 0.5 * (x * x + y * y)
     count = 0
@@ -48,29 +42,23 @@ def _cut(corners: Array, kept: Array, size: int, x: float, y: float) -> int:
             count += 1
         last = k
         before = beyond
+    farthest = 0.0
     for k in range(count):
         corners[k, 0] = kept[k, 0]
         corners[k, 1] = kept[k, 1]
-    return count
-
-
-@helper
-def _radius(corners: Array, size: int) -> float:
-    """Return the square of the distance of the farthest corner."""
-    largest = 0.0
-    for k in range(size):
-        largest = max(largest, corners[k, 0] ** 2 + corners[k, 1] ** 2)
-    return largest
+        farthest = max(farthest, corners[k, 0] ** 2 + corners[k, 1] ** 2)
+    return count, farthest
 
 
 @helper
 def _voronoi_cell(
-    p: int, points: Array, side: int, head: NDArray[np.int64], following: NDArray[np.int64], corners: Array, kept: Array
+    p: int, points: Array, head: NDArray[np.int64], following: NDArray[np.int64], corners: Array, kept: Array
 ) -> int:
     """Write the corners of the cell of point ``p``, relative to the point; return their number."""
     for k in range(4):
         corners[k, 0] = 0.5 if k == 0 or k == 3 else -0.5
         corners[k, 1] = 0.5 if k < 2 else -0.5
+    side = head.shape[0]
     size = 4
     square = 0.5
     x = points[0, p]
@@ -89,14 +77,13 @@ def _voronoi_cell(
             for di in range(-ring, ring + 1, step):
                 i = (column + di) % side
                 shift_x = (column + di - i) // side - x
-                q = head[j * side + i]
+                q = head[j, i]
                 while q >= 0:
                     dx = points[0, q] + shift_x
                     dy = points[1, q] + shift_y
                     distance = dx * dx + dy * dy
                     if 0.0 < distance < 4.0 * square:
-                        size = _cut(corners, kept, size, dx, dy)
-                        square = _radius(corners, size)
+                        size, square = _cut(corners, kept, size, dx, dy)
                     q = following[q]
         ring += 1
     return size
@@ -106,18 +93,15 @@ def _voronoi_cell(
 def relax(sets: Array, steps: int) -> None:
     """Relax the sets float64[R, 2, N] in place, ``steps`` times."""
     realizations, _, count = sets.shape
-    side = max(1, int(math.sqrt(count)))
     moved = np.empty((2, count))
-    head = np.empty(side * side, np.int64)
-    following = np.empty(count, np.int64)
     corners = np.empty((_MOST_CORNERS, 2))
     kept = np.empty((_MOST_CORNERS, 2))
     for r in range(realizations):
         points = sets[r]
         for _ in range(steps):
-            sort_into_cells(points, side, head, following)
+            head, following = sort_into_cells(points)
             for p in range(count):
-                size = _voronoi_cell(p, points, side, head, following, corners, kept)
+                size = _voronoi_cell(p, points, head, following, corners, kept)
                 # Twice the area and six times the first moments, of triangles from the point to each edge.
                 area = 0.0
                 moment_x = 0.0

@@ -5,19 +5,11 @@ golden ratio, which fractions approximate worst of all numbers, so the discrepan
 shift is a number of whole steps of 1/N plus a place within a step that all points share: the lattice stays exact.
 """
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
-from samplekit import FibonacciNumbers, Sampler, UsageError
+from samplekit import FibonacciNumbers, Realizations, Sampler
 from samplekit.kernels import below, dimension_key, kernel, offset_bits, place_in_cell, second_key
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from samplekit import Realizations
 
 _U64 = np.uint64
 _CHUNK = 1024
@@ -58,9 +50,6 @@ class Fibonacci(Sampler):
 
     def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`samplekit.Sampler.fill`."""
-        if not FibonacciNumbers().allows(count, 2):
-            raise UsageError(f"there is no Fibonacci lattice of {count} points")
-        before = FibonacciNumbers().below(count, 2)
-        # One point needs no generator, and 1 would not be below the count.
-        generators = (0, 0) if before is None else (1, before)
-        _fill(out, realizations.keys, np.array(generators, np.uint64), count, _U64(start))
+        # There is no number below 1, and one point needs no generator.
+        generators = np.array((1, FibonacciNumbers().below(count, 2) or 0), np.uint64)
+        _fill(out, realizations.keys, generators, count, _U64(start))

@@ -5,21 +5,14 @@ x^(D+1) = x + 1, and the step along axis d is phi^-(d+1). Steps are 64-bit fract
 exactly; the error of a step is at most 2^-65, that of point 2^32 at most 2^-33 in any dimension.
 """
 
-from __future__ import annotations
-
 from decimal import Decimal, localcontext
 from functools import cache
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
-from samplekit import Sampler
+from samplekit import Realizations, Sampler
 from samplekit_lattice.shifted_multiples import fill_shifted_multiples
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from samplekit import Realizations
 
 _DIGITS = 60
 """Decimal digits of phi: a 64-bit fraction takes 20, and D powers lose log10(D) of the others."""

@@ -5,22 +5,15 @@ N = 2^m points are the lattice k z / N, k = 0 to N - 1, in another order, and ev
 lattice shifted. The files in the folder ``vectors`` say where the vectors come from.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from functools import cache
 from importlib import resources
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
-from samplekit import Sampler
+from samplekit import Realizations, Sampler, SamplerSpec
 from samplekit_lattice.shifted_multiples import fill_shifted_multiples
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from samplekit import Realizations, SamplerSpec
 
 _KNOWN = {"hkkn": {"across-dimensions": "made for smooth periodic integrands: dimensions 5 and 7 are correlated"}}
 

@@ -1,15 +1,9 @@
 """Lattice sequences as 64-bit fractions: products and sums modulo 1 are those of integers that wrap around."""
 
-from __future__ import annotations
-
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit.kernels import kernel, reverse_bits32, unit
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 _U64 = np.uint64
 _U32 = np.uint32

@@ -5,7 +5,7 @@ import pytest
 from scipy import stats
 
 import samplekit
-from samplekit.kernels._radical_inverse import primes
+from samplekit.kernels._digits import primes
 
 SCRAMBLED = ["halton:scramble=digits", "halton:scramble=owen"]
 LARGE = [998, 999]
