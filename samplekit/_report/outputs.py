@@ -10,7 +10,7 @@ import numpy as np
 
 from samplekit._integrate.rendering import Rendering, render
 from samplekit._report.page import page
-from samplekit._report.table import csv_text
+from samplekit._report.results_csv import csv_text
 from samplekit._study.folder import CSV, IMAGES, JSON, PLOTS, REPORT, file_name
 from samplekit._study.results import SCHEMA, Pictures
 from samplekit.files import text_writer, write_group

@@ -202,7 +202,7 @@ class Stability:
             A file cannot be written.
         """
         from samplekit._provenance import versions
-        from samplekit._report.table import records_text
+        from samplekit._report.results_csv import records_text
         from samplekit.files import text_writer, write_group
         from samplekit.plots import figure_writer
 

@@ -20,7 +20,7 @@ _VISIBLE = 64.0 * 2.0**-53
 
 MEANINGS: dict[Kind, str] = {
     "right": f"within {_STANDARD_ERRORS:g} standard errors and rounding",
-    "no hits": "right, but no sample hit: all are the same, the variance is 0 and nothing has converged",
+    "no hits": "no sample hit: all samples are equal, so the variance is 0 although the estimate has not converged",
     "few hits": f"beyond {_STANDARD_ERRORS:g} standard errors, from fewer than {_ENOUGH_HITS:g} samples that hit",
     "infinite variance": "the standard error says nothing about the error",
     "precision lost": "rounding is larger than the error of sampling",

@@ -91,7 +91,7 @@ def _scene_text(target: float, needs: Sequence[ToTarget], choices: Sequence[Choi
         text += f"; from a cost of {flip.cost:.3g} ns a sample {flip.above} is the fastest"
     if choices:
         names = list(dict.fromkeys(choice.sampler for choice in choices))
-        text += f"; the best choices for rising budgets are of {', '.join(names)}"
+        text += f"; as the time budget grows, the best samplers are {', '.join(names)}"
     return text + "."
 
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit.files._images import diverging
+from samplekit.files._images.lettering import Label, draw, fitted, printable, width
 from samplekit.files._images.png import RESERVED
-from samplekit.files._images.text import Label, draw, fitted, printable, width
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

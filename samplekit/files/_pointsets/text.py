@@ -88,7 +88,7 @@ def read_text(path: Path) -> NDArray[np.float64]:
     Raises
     ------
     UsageError
-        The file is no such text; the message names the line.
+        The file is not a list of numbers; the message names the line.
     """
     try:
         text = path.read_bytes().decode("utf-8-sig")
@@ -156,7 +156,7 @@ def _close(sets: list[list[list[float]]], line: int) -> None:
     Raises
     ------
     UsageError
-        The last one has not as many points as the first.
+        The last set has another number of points than the first.
     """
     last, first = len(sets[-1]), len(sets[0])
     if not last:

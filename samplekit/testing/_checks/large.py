@@ -19,7 +19,7 @@ _COORDINATES = (0, 1, 255, 256, 2**16 + 1, 2**31 - 1, 2**32 - 1)
 
 @conformance_check("large-index", 16)
 def check_large_index(subject: SamplerSubject) -> None:
-    """Points at indices about 2^16, 2^31, 2^32 and 2^40, as far as declared, are right and not those of small ones."""
+    """Points at indices about 2^16, 2^31, 2^32 and 2^40, as far as declared, are correct and repeat no small ones."""
     if not subject.sampler.streams:
         raise NotApplicable("it makes sets as a whole: large indices are large sets")
     dims, most = subject.dims(2), subject.spec.largest_index + 1

@@ -166,7 +166,7 @@ def check_constants(subject: SceneSubject) -> None:
             if abs(exact - value) > bound + 1e-12 * max(1.0, abs(exact)):
                 raise CheckFailed(f"{_name(subject, box)} is called constant {value!r}, but its reference is {exact!r}")
     if not found:
-        raise NotApplicable("it calls no pixel of those looked at constant")
+        raise NotApplicable("none of the pixels examined is declared constant")
     subject.note(f"{found} constant pixels")
 
 

@@ -9,8 +9,8 @@ from samplekit._errors import UsageError
 from samplekit.files._images.diverging import STEPS, table
 from samplekit.files._images.falsecolor import enlargement, error_picture, rounded_up
 from samplekit.files._images.legend import BACKGROUND, number
+from samplekit.files._images.lettering import fitted, printable, width
 from samplekit.files._images.png import RESERVED
-from samplekit.files._images.text import fitted, printable, width
 
 # Full colour vision deficiencies, on linear RGB (Machado, Oliveira, Fernandes 2009).
 DEFICIENCIES = {
