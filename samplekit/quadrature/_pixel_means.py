@@ -7,23 +7,19 @@ circles and lines is integrated piece by piece between them: :mod:`samplekit.qua
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit._threads import default_threads
 from samplekit.quadrature._pieces import mark_crossed, piece_nodes, sum_cells
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
-    Function = Callable[[Array], Array]
-    """From points float64[2, M] of the picture to values float64[M]."""
+Array = NDArray[np.float64]
+Function = Callable[[Array], Array]
+"""From points float64[2, M] of the picture to values float64[M]."""
 
 _CELLS_AT_ONCE = 2**14
 _BUFFER = 2**20

@@ -6,11 +6,12 @@ the coordinates of point i + j are those of point i exclusive-ored with those of
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 import numpy as np
+from numpy.typing import NDArray
 
-from samplekit import Sampler
+from samplekit import Realizations, Sampler
 from samplekit.kernels import (
     TWO_M32,
     helper,
@@ -25,15 +26,8 @@ from samplekit.kernels import (
     tail_value,
 )
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from numpy.typing import NDArray
-
-    from samplekit import Realizations
-
-    Array = NDArray[np.float64]
-    Fill = Callable[[Array, Realizations, int, int], None]
+Array = NDArray[np.float64]
+Fill = Callable[[Array, Realizations, int, int], None]
 
 _U32 = np.uint32
 _TABLE = 1024

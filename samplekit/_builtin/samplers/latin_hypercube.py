@@ -6,11 +6,10 @@ it is N-rooks sampling (Shirley 1991, "Discrepancy as a quality measure for samp
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
-from samplekit import Sampler
+from samplekit import Realizations, Sampler
 from samplekit.kernels import (
     SHUFFLED,
     dimension_key,
@@ -25,12 +24,7 @@ from samplekit.kernels import (
     shuffle,
 )
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from samplekit import Realizations
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _U64 = np.uint64
 _SHUFFLE = _U64(0x6A09E667F3BCC908)

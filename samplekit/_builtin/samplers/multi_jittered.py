@@ -9,11 +9,10 @@ Beyond two dimensions, pairs of dimensions are padded: each pair is a set of its
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
-from samplekit import Sampler, UsageError, grid_sides
+from samplekit import Realizations, Sampler, UsageError, grid_sides
 from samplekit.kernels import (
     SHUFFLED,
     dimension_key,
@@ -29,12 +28,7 @@ from samplekit.kernels import (
     shuffle,
 )
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from samplekit import Realizations
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _U64 = np.uint64
 _ORDER = _U64(0xBB67AE8584CAA73B)

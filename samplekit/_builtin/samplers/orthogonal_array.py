@@ -23,11 +23,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import count as count_from
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
-from samplekit import LatinStrata, OrthogonalArray, PrimePowers, Sampler, UsageError
+from samplekit import LatinStrata, OrthogonalArray, PrimePowers, Realizations, Sampler, SamplerSpec, UsageError
 from samplekit.kernels import (
     SHUFFLED,
     dimension_key,
@@ -44,12 +44,7 @@ from samplekit.kernels import (
     shuffle,
 )
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from samplekit import Realizations, SamplerSpec
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _U64 = np.uint64
 _ORDER = _U64(0x1F83D9ABFB41BD6B)

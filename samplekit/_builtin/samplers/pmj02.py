@@ -15,19 +15,14 @@ shows.
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
-from samplekit import Sampler
+from samplekit import Realizations, Sampler
 from samplekit.kernels import BITS, fill_padded, group_tables
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from samplekit import Realizations
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 
 def pmj02_columns() -> NDArray[np.uint32]:

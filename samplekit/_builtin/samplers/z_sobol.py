@@ -21,11 +21,10 @@ Two things differ from the paper:
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
-from samplekit import Sampler, seed_word
+from samplekit import Realizations, Sampler, seed_word
 from samplekit._builtin.samplers.pixel_order import TILE_LEVELS, matched_place, random_place
 from samplekit.kernels import (
     SHUFFLED,
@@ -47,12 +46,7 @@ from samplekit.kernels import (
     tail_value,
 )
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from samplekit import Realizations
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _U32 = np.uint32
 _U64 = np.uint64

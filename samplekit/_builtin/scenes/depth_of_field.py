@@ -14,18 +14,15 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit import Scene, UsageError
 from samplekit.kernels import BLOCK, disk_point, fma, kernel, lane_sum
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from numpy.typing import NDArray
-
     from samplekit.quadrature import Curves
 
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 FRONT_DEPTH, RING_DEPTH, WALL_DEPTH = 0.5, 1.0, 2.0
 # Each row: centre, radius, value. The disks do not overlap, so that none hides another at their common depth.
@@ -119,7 +116,7 @@ class DepthOfField(Scene):
                 f" {LARGEST_CONFUSION:g} pictures"
             )
 
-    def dimensions(self) -> Mapping[str, int]:
+    def dimensions(self) -> dict[str, int]:
         """Return the dimensions of pixel and lens; with the aperture 0 those of the pixel alone."""
         return {"pixel": 2, "lens": 2} if self.aperture > 0.0 else {"pixel": 2}
 

@@ -7,16 +7,13 @@ farthest corner is, and outside if its nearest point is. The bounds have slack f
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit.kernels import helper, kernel, largest
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _BLOCK = 8
 _SLACK = 1e-12  # relative: places p + c l are rounded three times, each time by 2^-53

@@ -10,16 +10,13 @@ curves compute their crossing at places an ulp apart, it changes by an ulp.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit.kernels import helper, kernel
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _LAYERS = "float64[:,::1], float64[::1], float64[::1], float64[::1]"
 _SHARP = 1e-12  # Smaller circles of confusion are left out: they change the mean over a pixel by less than 1e-9.

@@ -9,18 +9,15 @@ The exact mean over a box is the product of two means of exp(-u^2), with u in un
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit import Scene
 from samplekit.kernels import BLOCK, dd_add, dd_multiply, exp_of_minus, fma, helper, kernel, lane_sum, two_difference
 from samplekit.quadrature import NODES, WEIGHTS
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _SQRT_HALF = 0.7071067811865476
 _SQRT_HALF_LOW = -4.833646656726457e-17

@@ -13,9 +13,9 @@ trapezoidal rule", SIAM Review 56).
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit._builtin.scenes.gaussian import gaussian_means
 from samplekit.kernels import (
@@ -30,12 +30,9 @@ from samplekit.kernels import (
     two_sum,
 )
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
-    Sides = tuple[Array, Array]
-    """Left and right ends of neighbouring intervals, float64[n] each; for points both are the same array."""
+Array = NDArray[np.float64]
+Sides = tuple[Array, Array]
+"""Left and right ends of neighbouring intervals, float64[n] each; for points both are the same array."""
 
 _STEP = 0.125
 _LOGS = np.arange(-72.0, 5.0, _STEP)

@@ -12,18 +12,15 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit import Scene
 from samplekit.kernels import BLOCK, disk_point, fma, kernel, lane_sum
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from numpy.typing import NDArray
-
     from samplekit.quadrature import Curves
 
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 # Each row: centre at half time, radius, value, speed along the direction.
 DISKS = np.array([[0.30, 0.70, 0.09, 0.875, 0.8], [0.55, 0.45, 0.11, 1.0, -0.5], [0.75, 0.25, 0.08, 0.75, 0.25]])
@@ -126,7 +123,7 @@ class MotionBlur(Scene):
     def __init__(self, shutter: float = 0.5, aperture: float = 0.0) -> None:
         self.shutter, self.confusion = float(shutter), 0.5 * aperture * (1.0 / 0.5 - 1.0)
 
-    def dimensions(self) -> Mapping[str, int]:
+    def dimensions(self) -> dict[str, int]:
         """Return the dimensions of pixel, lens and time: no lens with the aperture 0, no time with the shutter 0."""
         return {"pixel": 2} | ({"lens": 2} if self.confusion else {}) | ({"time": 1} if self.shutter else {})
 

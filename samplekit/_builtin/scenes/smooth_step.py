@@ -7,17 +7,13 @@ positive, so that nothing cancels, whether the width is small or large against t
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit.kernels import BLOCK, dd_add, exp_of_minus, fma, helper, kernel, lane_sum, two_product
 from samplekit.quadrature import NODES, WEIGHTS
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _ALWAYS_0 = 746.0  # 1 / (1 + exp(v)) underflows to 0 from 745.14 on
 _ALWAYS_1 = -38.0  # and rounds to 1 before -36.74

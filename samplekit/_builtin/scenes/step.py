@@ -7,19 +7,15 @@ place, so it is a difference of double-doubles. A part above one half is compute
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit import Scene, UsageError
 from samplekit._builtin.scenes.sample_bounds import product_bounds, sample_bounds
 from samplekit._builtin.scenes.smooth_step import smooth_constant, smooth_means, smooth_sums
 from samplekit.kernels import dd_add, direction, helper, kernel, two_product
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 
 @kernel("void(float64[:,:,::1], float64[:,::1], float64[::1], float64, float64, float64)")

@@ -9,9 +9,9 @@ a Fresnel integral. An image needs w + h such factors, not w * h.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit import Scene
 from samplekit.kernels import (
@@ -28,10 +28,7 @@ from samplekit.kernels import (
 )
 from samplekit.quadrature import NODES, WEIGHTS
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _TAU = 6.283185307179586
 _TAU_LOW = 2.4492935982947064e-16
