@@ -9,16 +9,12 @@ by that point times the radius of the circle of confusion, half the aperture.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from samplekit import Scene
 from samplekit.kernels import BLOCK, disk_point, fma, kernel, lane_sum
-
-if TYPE_CHECKING:
-    from samplekit.quadrature import Curves
 
 Array = NDArray[np.float64]
 
@@ -32,27 +28,16 @@ LARGEST_CELL = 1.0 / 64.0
 _SLACK = 1e-12  # relative: places are rounded a few times, each time by 2^-53
 
 
-@kernel(
-    "void(float64[:,:,::1], float64[:,::1], float64[::1], float64[:,::1], float64[::1], float64, float64, int64, int64)"
-)
+@kernel("void(float64[:,:,::1], float64[:,::1], float64[::1], float64, float64, int64, int64)")
 def _sums(
-    tile: Array,
-    boxes: Array,
-    out: Array,
-    disks: Array,
-    board: Array,
-    confusion: float,
-    shutter: float,
-    lens_row: int,
-    time_row: int,
+    tile: Array, boxes: Array, out: Array, confusion: float, shutter: float, lens_row: int, time_row: int
 ) -> None:
     """Paint from back to front; ``lens_row`` and ``time_row`` of the tile are the lens and the time, -1 for none."""
     pixels, _, count = tile.shape
     x, y, shift_x, shift_y, values = np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK)
     times = np.zeros(BLOCK)
     shift_x[:], shift_y[:] = 0.0, 0.0
-    # A pass becomes vector instructions only if all its numbers but the samples are in local variables.
-    first, per_cell, even, odd = board[0], 1.0 / board[1], board[2], board[3]
+    first, per_cell = BOARD[0], 1.0 / BOARD[1]
     for pixel in range(pixels):
         left, width, top, height = boxes[0, pixel], boxes[1, pixel], boxes[2, pixel], boxes[3, pixel]
         for i in range(count):
@@ -67,10 +52,10 @@ def _sums(
                 times[i] = shutter * (tile[pixel, time_row, i] - 0.5)
         for i in range(count):
             half = 0.5 * (np.floor((x[i] - first) * per_cell) + np.floor((y[i] - first) * per_cell))
-            values[i] = even if half == np.floor(half) else odd
-        for k in range(disks.shape[0]):
-            disk_x, disk_y, limit, disk_value = disks[k, 0], disks[k, 1], disks[k, 2] * disks[k, 2], disks[k, 3]
-            speed_x, speed_y = disks[k, 4] * DIRECTION[0], disks[k, 4] * DIRECTION[1]
+            values[i] = BOARD[2] if half == np.floor(half) else BOARD[3]
+        for k in range(DISKS.shape[0]):
+            disk_x, disk_y, limit, disk_value = DISKS[k, 0], DISKS[k, 1], DISKS[k, 2] * DISKS[k, 2], DISKS[k, 3]
+            speed_x, speed_y = DISKS[k, 4] * DIRECTION[0], DISKS[k, 4] * DIRECTION[1]
             for i in range(count):
                 dx = x[i] + shift_x[i] - fma(times[i], speed_x, disk_x)
                 dy = y[i] + shift_y[i] - fma(times[i], speed_y, disk_y)
@@ -78,8 +63,8 @@ def _sums(
         out[pixel] = lane_sum(values, count)
 
 
-@kernel("void(float64[::1], float64[::1], float64[:,::1], float64[::1], float64, float64, float64[:,::1])")
-def _constant(x: Array, y: Array, disks: Array, board: Array, reach: float, shutter: float, out: Array) -> None:
+@kernel("void(float64[::1], float64[::1], float64, float64, float64[:,::1])")
+def _constant(x: Array, y: Array, reach: float, shutter: float, out: Array) -> None:
     """Write the value of constant pixels, NaN elsewhere, by bounds of their distance from each disk's path."""
     for j in range(out.shape[0]):
         for i in range(out.shape[1]):
@@ -87,23 +72,23 @@ def _constant(x: Array, y: Array, disks: Array, board: Array, reach: float, shut
             middle_x, middle_y = 0.5 * (x[i] + x[i + 1]), 0.5 * (y[j] + y[j + 1])
             around = 0.5 * math.hypot(x[i + 1] - x[i], y[j + 1] - y[j])
             shown = False
-            for k in range(disks.shape[0]):
-                half = 0.5 * shutter * abs(disks[k, 4])
-                dx, dy = middle_x - disks[k, 0], middle_y - disks[k, 1]
+            for k in range(DISKS.shape[0]):
+                half = 0.5 * shutter * abs(DISKS[k, 4])
+                dx, dy = middle_x - DISKS[k, 0], middle_y - DISKS[k, 1]
                 along = abs(dx * DIRECTION[0] + dy * DIRECTION[1])
                 across = dy * DIRECTION[0] - dx * DIRECTION[1]
                 slack = around + reach + _SLACK * (1.0 + reach + half)
-                if math.hypot(along + half, across) + slack < disks[k, 2]:
-                    out[j, i] = disks[k, 3]
-                shown |= math.hypot(max(0.0, along - half), across) - slack <= disks[k, 2]
+                if math.hypot(along + half, across) + slack < DISKS[k, 2]:
+                    out[j, i] = DISKS[k, 3]
+                shown |= math.hypot(max(0.0, along - half), across) - slack <= DISKS[k, 2]
             if shown:
                 continue
-            column = np.floor((x[i] - _SLACK - board[0]) / board[1])
-            row = np.floor((y[j] - _SLACK - board[0]) / board[1])
-            last_column = np.floor((x[i + 1] + _SLACK - board[0]) / board[1])
-            last_row = np.floor((y[j + 1] + _SLACK - board[0]) / board[1])
+            column = np.floor((x[i] - _SLACK - BOARD[0]) / BOARD[1])
+            row = np.floor((y[j] - _SLACK - BOARD[0]) / BOARD[1])
+            last_column = np.floor((x[i + 1] + _SLACK - BOARD[0]) / BOARD[1])
+            last_row = np.floor((y[j + 1] + _SLACK - BOARD[0]) / BOARD[1])
             if column == last_column and row == last_row:
-                out[j, i] = board[2] if 0.5 * (column + row) == np.floor(0.5 * (column + row)) else board[3]
+                out[j, i] = BOARD[2] if 0.5 * (column + row) == np.floor(0.5 * (column + row)) else BOARD[3]
 
 
 class MotionBlur(Scene):
@@ -131,19 +116,19 @@ class MotionBlur(Scene):
         """Sum the values that each pixel's rays meet: see :meth:`Scene.sums`."""
         lens_row = 2 if self.confusion else -1
         time_row = tile.shape[1] - 1 if self.shutter else -1
-        _sums(tile, boxes, out, DISKS, BOARD, self.confusion, self.shutter, lens_row, time_row)
+        _sums(tile, boxes, out, self.confusion, self.shutter, lens_row, time_row)
 
     def constant(self, x_edges: Array, y_edges: Array) -> Array:
         """Return the value of the pixels that always show one cell or one disk, from the whole lens; NaN elsewhere."""
         out = np.empty((y_edges.size - 1, x_edges.size - 1))
         x, y = np.ascontiguousarray(x_edges, np.float64), np.ascontiguousarray(y_edges, np.float64)
-        _constant(x, y, DISKS, BOARD, self.confusion, self.shutter, out)
+        _constant(x, y, self.confusion, self.shutter, out)
         return out
 
     def exact(self, x_edges: Array, y_edges: Array) -> Array:
         """Return the mean over pixel, lens and time: float64[h, w], within ``reference_error``."""
         from samplekit._builtin.scenes import motion_blur_means
-        from samplekit.quadrature import kept_means
+        from samplekit.quadrature import Curves, kept_means
 
         return kept_means(
             f"{self.shutter!r} {self.confusion!r}",
@@ -152,7 +137,7 @@ class MotionBlur(Scene):
             x_edges,
             y_edges,
             known=self.constant(x_edges, y_edges),
-            curves=self._edges(x_edges, y_edges),
+            curves=Curves(*self._edges(x_edges, y_edges)),
             largest=LARGEST_CELL,
         )
 
@@ -164,12 +149,15 @@ class MotionBlur(Scene):
         from samplekit._builtin.scenes.motion_blur_means import lens_and_time_means
 
         out = np.empty(points.shape[1])
-        lens_and_time_means(points, DISKS, np.array(DIRECTION), BOARD, self.confusion, self.shutter, out)
+        lens_and_time_means(points, self.confusion, self.shutter, out)
         return out
 
-    def _edges(self, x_edges: Array, y_edges: Array) -> Curves:
-        """Return the board's lines, and the curves along which disks begin and end to show unless these are blurred."""
-        from samplekit.quadrature import Curves, pixel_side
+    def _edges(self, x_edges: Array, y_edges: Array) -> tuple[Array, Array]:
+        """Return circles float64[K, 3] and lines float64[L, 3]: the board's, and where disks begin and end to show.
+
+        Disks that are blurred over many pixels have none.
+        """
+        from samplekit.quadrature import pixel_side
 
         circles, lines = set(), set()
         for axis, edges in enumerate((x_edges, y_edges)):
@@ -185,4 +173,4 @@ class MotionBlur(Scene):
                     circles.add((x + end * DIRECTION[0], y + end * DIRECTION[1], r))
                 if self.shutter:
                     lines |= {(-DIRECTION[1], DIRECTION[0], lane + side * r) for side in (-1, 1)}
-        return Curves(np.array(sorted(circles)).reshape(-1, 3), np.array(sorted(lines)).reshape(-1, 3))
+        return np.array(sorted(circles)).reshape(-1, 3), np.array(sorted(lines)).reshape(-1, 3)

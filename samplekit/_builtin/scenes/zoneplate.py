@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from samplekit import Scene
+from samplekit._builtin.scenes.sample_bounds import square_bounds
 from samplekit.kernels import (
     BLOCK,
     cosine_of_turns,
@@ -65,23 +66,14 @@ class ZonePlate(Scene):
 
     def constant(self, x_edges: Array, y_edges: Array) -> Array:
         """Return 1 where the phase is so small that its cosine rounds to 1, NaN elsewhere: float64[h, w]."""
-        x = np.abs(x_edges - self.cx)
-        y = np.abs(y_edges - self.cy)
-        x_farthest = np.maximum(x[:-1], x[1:])
-        y_farthest = np.maximum(y[:-1], y[1:])
-        turns = self.k * _PER_TAU * np.add.outer(y_farthest**2, x_farthest**2)
+        x, y = x_edges - self.cx, y_edges - self.cy
+        farthest = square_bounds(y[:-1], y[1:])[1][:, None] + square_bounds(x[:-1], x[1:])[1]
+        turns = self.k * _PER_TAU * farthest
         return np.where(turns < _MOST_TURNS_OF_ONE, 1.0, np.nan)
 
 
 @kernel("void(float64[:,:,::1], float64[:,::1], float64, float64, float64, float64[::1])")
-def _sums(
-    tile: Array,
-    boxes: Array,
-    turns: float,
-    cx: float,
-    cy: float,
-    out: Array,
-) -> None:
+def _sums(tile: Array, boxes: Array, turns: float, cx: float, cy: float, out: Array) -> None:
     pixels, _, count = tile.shape
     values = np.empty(BLOCK)
     for pixel in range(pixels):
@@ -134,13 +126,7 @@ def _phase(k: float, offset: float, low: float) -> complex:
 
 
 @kernel("void(float64[::1], float64, float64, float64[::1], complex128[::1])")
-def _edge_phases(
-    edges: Array,
-    centre: float,
-    k: float,
-    offsets: Array,
-    phases: NDArray[np.complex128],
-) -> None:
+def _edge_phases(edges: Array, centre: float, k: float, offsets: Array, phases: NDArray[np.complex128]) -> None:
     for i in range(edges.size):
         offset, low = two_difference(edges[i], centre)
         offsets[i] = offset
