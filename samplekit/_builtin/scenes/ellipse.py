@@ -51,12 +51,7 @@ class Ellipse(Scene):
     """
 
     def __init__(
-        self,
-        radius: float = 0.3,
-        aspect: float = 0.1,
-        angle: float = 30.0,
-        cx: float = 0.4523,
-        cy: float = 0.5317,
+        self, radius: float = 0.3, aspect: float = 0.1, angle: float = 30.0, cx: float = 0.4523, cy: float = 0.5317
     ) -> None:
         self.cx, self.cy = float(cx), float(cy)
         self.cosine, self.sine = direction(angle)

@@ -65,12 +65,7 @@ class Spike(Scene):
     """
 
     def __init__(
-        self,
-        peak: float = 1e30,
-        background: float = 1e-30,
-        area: float = 1e-4,
-        cx: float = 0.4523,
-        cy: float = 0.5317,
+        self, peak: float = 1e30, background: float = 1e-30, area: float = 1e-4, cx: float = 0.4523, cy: float = 0.5317
     ) -> None:
         half = 0.5 * math.sqrt(area)
         self.square = np.array([cx - half, cx + half, cy - half, cy + half])
