@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from samplekit import Products, Realizations, Sampler, UsageError, grid_sides
-from samplekit._builtin.samplers.strata import new_places, ordered_places, write_in_cells
+from samplekit._builtin.samplers.strata import cell_steps, new_places, ordered_places, write_in_cells
 from samplekit.kernels import cell_along_axis, dimension_key, kernel, mix64, permutation_bits
 
 Array = NDArray[np.float64]
@@ -89,7 +89,7 @@ def _fill_jittered(
             per_row = 1.0 / np.float64(strides[d])
             for i in range(points):
                 cells[i] = cell_along_axis(order[i], per_row, side, width)
-            write_in_cells(out[r, d], cells, sides[d], start, key)
+            write_in_cells(out[r, d], cells, cell_steps(sides[d]), start, key)
 
 
 class Regular(Sampler):

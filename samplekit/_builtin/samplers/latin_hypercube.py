@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from samplekit import Realizations, Sampler
-from samplekit._builtin.samplers.strata import new_places, ordered_places, write_in_cells
+from samplekit._builtin.samplers.strata import cell_steps, new_places, ordered_places, write_in_cells
 from samplekit.kernels import dimension_key, kernel, mix64, permutation_bits
 
 Array = NDArray[np.float64]
@@ -23,11 +23,12 @@ def _fill(out: Array, keys: NDArray[np.uint64], count: int, start: int) -> None:
     realizations, dims, points = out.shape
     places = new_places(points, count)
     bits = permutation_bits(count)
+    steps = cell_steps(count)
     for r in range(realizations):
         for d in range(dims):
             key = dimension_key(keys[r], d)
             cells = ordered_places(places, points, count, start, bits, mix64(key ^ _SHUFFLE))
-            write_in_cells(out[r, d], cells, count, start, key)
+            write_in_cells(out[r, d], cells, steps, start, key)
 
 
 class LatinHypercube(Sampler):

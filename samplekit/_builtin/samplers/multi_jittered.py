@@ -15,12 +15,15 @@ from numpy.typing import NDArray
 from samplekit import Realizations, Sampler, UsageError, grid_sides
 from samplekit._builtin.samplers.strata import (
     BLOCK,
+    cell_steps,
     new_lines,
+    new_places,
+    ordered_places,
     permute_in_shuffled_lines,
     shuffle_lines,
     write_in_cells,
 )
-from samplekit.kernels import SHUFFLED, dimension_key, kernel, mix64, permutation_bits, permute_range, shuffle
+from samplekit.kernels import dimension_key, kernel, mix64, permutation_bits
 
 Array = NDArray[np.float64]
 
@@ -35,17 +38,16 @@ def _fill(
 ) -> None:
     realizations, dims, whole = out.shape
     points = min(whole, BLOCK)
-    shuffled = np.empty(SHUFFLED, np.int64)
+    places = new_places(points, count)
     line_keys, table = new_lines(max(columns, rows), max(columns, rows) if correlated else count)
     place, line, order = np.empty(points, np.int64), np.empty(points, np.int64), np.empty(points)
     count_bits = permutation_bits(count)
+    steps = cell_steps(count)
     row_length = np.float64(columns)
     per_row = 1.0 / row_length
     for r in range(realizations):
         for d in range(dims):
             order_key = mix64(dimension_key(keys[r], d - d % 2) ^ _ORDER)
-            if d > 1 and d % 2 == 0 and count <= SHUFFLED:
-                shuffle(shuffled, count, order_key)
             # Along x the lines are the columns, each with one sub-column per row; along y the reverse.
             lines, sublines = (columns, rows) if d % 2 == 0 else (rows, columns)
             key = dimension_key(keys[r], d)
@@ -53,25 +55,23 @@ def _fill(
             shuffle_lines(line_keys, table, lines, sublines, correlated, mix64(key ^ _LINES))
             for begin in range(start, start + whole, points):
                 n = min(points, start + whole - begin)
+                # The second dimension of a pair finds the order of the first, unless another block came between.
                 if d < 2:
                     for i in range(n):
                         order[i] = np.float64(begin + i)
-                elif count <= SHUFFLED:
+                elif d % 2 == 0 or whole > points:
+                    ordered = ordered_places(places, n, count, begin, count_bits, order_key)
                     for i in range(n):
-                        order[i] = np.float64(shuffled[begin + i])
-                else:
-                    permute_range(place[:n], begin, count, count_bits, order_key)
-                    for i in range(n):
-                        order[i] = np.float64(place[i])
+                        order[i] = np.float64(ordered[i])
                 for i in range(n):
                     across = np.floor((order[i] + 0.5) * per_row)
                     column = order[i] - row_length * across
                     line[i] = np.int64(column if d % 2 == 0 else across)
                     place[i] = np.int64(across if d % 2 == 0 else column)
-                permute_in_shuffled_lines(place[:n], line[:n], sublines, correlated, subline_bits, line_keys, table)
+                permute_in_shuffled_lines(place, line, n, sublines, correlated, subline_bits, line_keys, table)
                 for i in range(n):
                     place[i] += line[i] * sublines
-                write_in_cells(out[r, d, begin - start : begin - start + n], place, count, begin, key)
+                write_in_cells(out[r, d, begin - start : begin - start + n], place, steps, begin, key)
 
 
 class MultiJittered(Sampler):

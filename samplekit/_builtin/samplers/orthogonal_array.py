@@ -30,20 +30,20 @@ from numpy.typing import NDArray
 from samplekit import LatinStrata, OrthogonalArray, PrimePowers, Realizations, Sampler, SamplerSpec, UsageError
 from samplekit._builtin.samplers.strata import (
     BLOCK,
+    cell_steps,
     new_lines,
     new_places,
+    ordered_places,
     permute_in_shuffled_lines,
     shuffle_lines,
     write_in_cells,
 )
 from samplekit.kernels import (
-    SHUFFLED,
     dimension_key,
     helper,
     kernel,
     mix64,
     permutation_bits,
-    permute_range,
     shuffle,
 )
 
@@ -83,16 +83,12 @@ def _write_coefficients(
 ) -> None:
     """Write the digits in base s of the places that start, start + 1, ... have in a random order of all points."""
     strength, whole = coefficients.shape
-    per_base = 1.0 / base
-    if count <= SHUFFLED:
-        shuffle(order, count, key)
+    per_base, bits = 1.0 / base, permutation_bits(count)
     for begin in range(0, whole, BLOCK):
         n = min(BLOCK, whole - begin)
-        if count > SHUFFLED:
-            permute_range(order[:n], start + begin, count, permutation_bits(count), key)
-        first = start + begin if count <= SHUFFLED else 0
+        ordered = ordered_places(order, n, count, start + begin, bits, key)
         for i in range(n):
-            coefficients[0, begin + i] = np.float64(order[first + i])
+            coefficients[0, begin + i] = np.float64(ordered[i])
         for k in range(strength):
             row = coefficients[k, begin : begin + n]
             above = coefficients[min(k + 1, strength - 1), begin : begin + n]
@@ -109,11 +105,12 @@ def _fill(out: Array, keys: NDArray[np.uint64], s: int, strength: int, style: in
     points = min(whole, BLOCK)
     sublines = count // s
     order = new_places(points, count)
-    coefficients, digits = np.empty((strength, whole)), np.empty((2, points))
+    coefficients, digits, cells = np.empty((strength, whole)), np.empty((2, points)), np.empty(points)
     stratum, place, strata = np.empty(points, np.int64), np.empty(points, np.int64), np.empty(s, np.int64)
     shared = style == _CORRELATED
     line_keys, table = new_lines(s, sublines if shared else count)
     subline_bits = permutation_bits(sublines)
+    steps = cell_steps(s if style == _JITTERED else count)
     base = np.float64(s)
     for r in range(realizations):
         _write_coefficients(coefficients, order, base, count, start, mix64(keys[r] ^ _ORDER))
@@ -133,8 +130,8 @@ def _fill(out: Array, keys: NDArray[np.uint64], s: int, strength: int, style: in
                     stratum[i] = np.int64(digits[0, i])
                 if style == _JITTERED:
                     for i in range(n):
-                        place[i] = strata[stratum[i]]
-                    write_in_cells(row, place, s, start + begin, key)
+                        cells[i] = np.float64(strata[stratum[i]])
+                    write_in_cells(row, cells, steps, start + begin, key)
                     continue
                 place[:n] = 0
                 for column in range(group, group + strength):
@@ -142,10 +139,10 @@ def _fill(out: Array, keys: NDArray[np.uint64], s: int, strength: int, style: in
                         _column(digits[1, :n], block, column, base)
                         for i in range(n):
                             place[i] = place[i] * s + np.int64(digits[1, i])
-                permute_in_shuffled_lines(place[:n], stratum[:n], sublines, shared, subline_bits, line_keys, table)
+                permute_in_shuffled_lines(place, stratum, n, sublines, shared, subline_bits, line_keys, table)
                 for i in range(n):
-                    place[i] += strata[stratum[i]] * sublines
-                write_in_cells(row, place, count, start + begin, key)
+                    cells[i] = np.float64(strata[stratum[i]] * sublines + place[i])
+                write_in_cells(row, cells, steps, start + begin, key)
 
 
 def _prime_root(count: int, strength: int) -> int:

@@ -49,14 +49,22 @@ def ordered_places(
 
 
 @helper
-def write_in_cells(row: Array, cells: Array | NDArray[np.int64], count: int, start: int, key: np.uint64) -> None:
-    """Write a random place in each point's cell, one of ``count`` equal cells of [0, 1).
+def cell_steps(count: int) -> tuple[np.uint64, float, float]:
+    """Return the shift, step and width that :func:`samplekit.kernels.place_in_cell` takes for ``count`` cells."""
+    bits = offset_bits(count)
+    return _U64(64 - bits), 2.0 ** (-bits), 1.0 / count
+
+
+@helper
+def write_in_cells(
+    row: Array, cells: Array | NDArray[np.int64], steps: tuple[np.uint64, float, float], start: int, key: np.uint64
+) -> None:
+    """Write a random place in each point's cell of [0, 1); ``steps`` are those of :func:`cell_steps`.
 
     ``start`` is the number of the first point, ``key`` the dimension's.
     """
     second = second_key(key)
-    bits = offset_bits(count)
-    shift, step, width = _U64(64 - bits), 2.0 ** (-bits), 1.0 / count
+    shift, step, width = steps
     for i in range(row.size):
         row[i] = place_in_cell(np.float64(cells[i]), hash_index(key, second, _U64(start + i)), shift, step, width)
 
@@ -85,16 +93,21 @@ def shuffle_lines(
 def permute_in_shuffled_lines(
     places: NDArray[np.int64],
     lines: NDArray[np.int64],
+    points: int,
     sublines: int,
     shared: bool,
     bits: int,
     keys: NDArray[np.uint64],
     table: NDArray[np.int64],
 ) -> None:
-    """Take each place to where the order of its line has it, in place; ``bits`` is permutation_bits(sublines)."""
+    """Take the first ``points`` places to where the orders of their lines have them, in place.
+
+    ``bits`` is permutation_bits(sublines); ``sublines``, ``shared``, ``keys`` and ``table`` as for
+    :func:`shuffle_lines`.
+    """
     per_line = 0 if shared else sublines
     if table.size > 0:
-        for i in range(places.size):
+        for i in range(points):
             places[i] = table[lines[i] * per_line + places[i]]
     else:
-        permute_in_lines(places, lines, sublines, bits, keys)
+        permute_in_lines(places[:points], lines[:points], sublines, bits, keys)

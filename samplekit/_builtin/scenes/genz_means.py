@@ -40,8 +40,7 @@ _WHOLE = np.zeros(1), np.ones(1)
 _STEP = 0.125
 _LOGS = np.arange(-72.0, 5.0, _STEP)
 """Logarithms of s: below them s^d is negligible, above them exp(-s)."""
-_PI = 3.141592653589793
-_PI_LOW = 1.2246467991473532e-16
+_TAU_LOW = 2.4492935982947064e-16  # what 2 pi is beyond math.tau
 
 _, _PRODUCT_PEAK, _, _GAUSSIAN, _CONTINUOUS, _ = range(len(GENZ_FAMILIES))
 
@@ -129,9 +128,9 @@ def _wave_means(a: float, left: Array, right: Array, turns: Array, lengths: Arra
         half, half_low = dd_scale(0.5 * width, 0.5 * width_low, a)
         # sin(2 pi t) = cos(2 pi (t - 1/4)): a whole number of turns is taken off first, exactly.
         rest = (half - np.rint(half)) + (half_low - np.rint(half_low))
-        angle, angle_low = dd_multiply(half, half_low, 2.0 * _PI, 2.0 * _PI_LOW)
+        angle, angle_low = dd_multiply(half, half_low, math.tau, _TAU_LOW)
         angle = dd_add(angle, angle_low, 0.0, 0.0)[0]
-        lengths[i] = math.sin(2.0 * _PI * rest) / angle if angle > 0.0 else 1.0
+        lengths[i] = math.sin(math.tau * rest) / angle if angle > 0.0 else 1.0
 
 
 def _waves(a: Array, u: float, x: Sides, y: Sides) -> Array:

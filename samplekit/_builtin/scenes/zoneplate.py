@@ -31,7 +31,6 @@ from samplekit.quadrature import NODES, WEIGHTS
 
 Array = NDArray[np.float64]
 
-_TAU = 6.283185307179586
 _TAU_LOW = 2.4492935982947064e-16
 _PER_TAU = 0.15915494309189535
 _PER_TAU_LOW = -9.839338337591243e-18
@@ -120,7 +119,7 @@ def _phase(k: float, offset: float, low: float) -> complex:
     turns, turns_low = dd_scale(turns, turns_low, k)
     turns -= np.rint(turns)
     turns_low -= np.rint(turns_low)
-    angle, angle_low = dd_multiply(turns, turns_low, _TAU, _TAU_LOW)
+    angle, angle_low = dd_multiply(turns, turns_low, math.tau, _TAU_LOW)
     cosine, sine = math.cos(angle), math.sin(angle)
     return complex(cosine - angle_low * sine, sine + angle_low * cosine)
 
