@@ -14,12 +14,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from samplekit import Products, Realizations, Sampler, UsageError, grid_sides
-from samplekit._builtin.samplers.strata import cell_steps, new_places, ordered_places, write_in_cells
-from samplekit.kernels import cell_along_axis, dimension_key, kernel, mix64, permutation_bits
+from samplekit.kernels import (
+    SHUFFLED,
+    cell_along_axis,
+    dimension_key,
+    hash_index,
+    kernel,
+    mix64,
+    offset_bits,
+    permutation_bits,
+    permute_range,
+    place_in_cell,
+    second_key,
+    shuffle,
+)
 
 Array = NDArray[np.float64]
 
-_ORDER = np.uint64(0xA54FF53A5F1D36F1)
+_U64 = np.uint64
+_ORDER = _U64(0xA54FF53A5F1D36F1)
 _FARTHEST = 100_000
 """Number of counts that are tried below and above a count to find one that fits."""
 
@@ -72,24 +85,36 @@ def _fill_jittered(
     random as any while the order of all others is permuted.
     """
     realizations, dims, points = out.shape
-    places = new_places(points, count)
-    bits = permutation_bits(count)
-    order, cells = np.empty(points), np.empty(points)
+    place = np.empty(max(points, min(count, SHUFFLED)), np.int64)
+    order = np.empty(points, np.float64)
+    index_bits = permutation_bits(count)
     for r in range(realizations):
-        for i in range(points):
-            order[i] = np.float64(start + i)
         for d in range(dims):
             key = dimension_key(keys[r], d)
-            if d > 0 and block[d] == d:
-                ordered = ordered_places(places, points, count, start, bits, mix64(key ^ _ORDER))
+            second = second_key(key)
+            if block[d] == d:
+                order_key = mix64(key ^ _ORDER)
+                first = 0
+                if d == 0:
+                    for i in range(points):
+                        place[i] = start + i
+                elif count <= SHUFFLED:
+                    shuffle(place, count, order_key)
+                    first = start
+                else:
+                    permute_range(place[:points], start, count, index_bits, order_key)
                 for i in range(points):
-                    order[i] = np.float64(ordered[i])
+                    order[i] = np.float64(place[first + i])
+            bits = offset_bits(sides[d])
+            shift = _U64(64 - bits)
+            step = 2.0 ** (-bits)
             side = np.float64(sides[d])
             width = 1.0 / side
             per_row = 1.0 / np.float64(strides[d])
+            row = out[r, d]
             for i in range(points):
-                cells[i] = cell_along_axis(order[i], per_row, side, width)
-            write_in_cells(out[r, d], cells, cell_steps(sides[d]), start, key)
+                cell = cell_along_axis(order[i], per_row, side, width)
+                row[i] = place_in_cell(cell, hash_index(key, second, _U64(start + i)), shift, step, width)
 
 
 class Regular(Sampler):

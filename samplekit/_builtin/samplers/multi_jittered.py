@@ -19,11 +19,18 @@ from samplekit._builtin.samplers.strata import (
     new_lines,
     new_places,
     ordered_places,
-    permute_in_shuffled_lines,
-    shuffle_lines,
-    write_in_cells,
 )
-from samplekit.kernels import dimension_key, kernel, mix64, permutation_bits
+from samplekit.kernels import (
+    dimension_key,
+    hash_index,
+    kernel,
+    mix64,
+    permutation_bits,
+    permute_in_lines,
+    place_in_cell,
+    second_key,
+    shuffle,
+)
 
 Array = NDArray[np.float64]
 
@@ -42,7 +49,7 @@ def _fill(
     line_keys, table = new_lines(max(columns, rows), max(columns, rows) if correlated else count)
     place, line, order = np.empty(points, np.int64), np.empty(points, np.int64), np.empty(points)
     count_bits = permutation_bits(count)
-    steps = cell_steps(count)
+    shift, step, width = cell_steps(count)
     row_length = np.float64(columns)
     per_row = 1.0 / row_length
     for r in range(realizations):
@@ -51,8 +58,17 @@ def _fill(
             # Along x the lines are the columns, each with one sub-column per row; along y the reverse.
             lines, sublines = (columns, rows) if d % 2 == 0 else (rows, columns)
             key = dimension_key(keys[r], d)
+            second = second_key(key)
             subline_bits = permutation_bits(sublines)
-            shuffle_lines(line_keys, table, lines, sublines, correlated, mix64(key ^ _LINES))
+            per_line = 0 if correlated else sublines
+            line_key = mix64(key ^ _LINES)
+            if correlated and table.size > 0:
+                shuffle(table, sublines, line_key)
+            else:
+                for k in range(lines):
+                    line_keys[k] = line_key if correlated else mix64(line_key + _U64(k))
+                    if table.size > 0:
+                        shuffle(table[k * sublines :], sublines, line_keys[k])
             for begin in range(start, start + whole, points):
                 n = min(points, start + whole - begin)
                 # The second dimension of a pair finds the order of the first, unless another block came between.
@@ -68,10 +84,15 @@ def _fill(
                     column = order[i] - row_length * across
                     line[i] = np.int64(column if d % 2 == 0 else across)
                     place[i] = np.int64(across if d % 2 == 0 else column)
-                permute_in_shuffled_lines(place, line, n, sublines, correlated, subline_bits, line_keys, table)
+                if table.size > 0:
+                    for i in range(n):
+                        place[i] = table[line[i] * per_line + place[i]]
+                else:
+                    permute_in_lines(place[:n], line[:n], sublines, subline_bits, line_keys)
+                row = out[r, d, begin - start : begin - start + n]
                 for i in range(n):
-                    place[i] += line[i] * sublines
-                write_in_cells(out[r, d, begin - start : begin - start + n], place, steps, begin, key)
+                    cell = np.float64(line[i] * sublines + place[i])
+                    row[i] = place_in_cell(cell, hash_index(key, second, _U64(begin + i)), shift, step, width)
 
 
 class MultiJittered(Sampler):

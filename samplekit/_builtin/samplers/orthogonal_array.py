@@ -34,16 +34,17 @@ from samplekit._builtin.samplers.strata import (
     new_lines,
     new_places,
     ordered_places,
-    permute_in_shuffled_lines,
-    shuffle_lines,
-    write_in_cells,
 )
 from samplekit.kernels import (
     dimension_key,
+    hash_index,
     helper,
     kernel,
     mix64,
     permutation_bits,
+    permute_in_lines,
+    place_in_cell,
+    second_key,
     shuffle,
 )
 
@@ -105,20 +106,26 @@ def _fill(out: Array, keys: NDArray[np.uint64], s: int, strength: int, style: in
     points = min(whole, BLOCK)
     sublines = count // s
     order = new_places(points, count)
-    coefficients, digits, cells = np.empty((strength, whole)), np.empty((2, points)), np.empty(points)
+    coefficients, digits = np.empty((strength, whole)), np.empty((2, points))
     stratum, place, strata = np.empty(points, np.int64), np.empty(points, np.int64), np.empty(s, np.int64)
     shared = style == _CORRELATED
     line_keys, table = new_lines(s, sublines if shared else count)
     subline_bits = permutation_bits(sublines)
-    steps = cell_steps(s if style == _JITTERED else count)
+    per_line = 0 if shared else sublines
+    shift, step, width = cell_steps(s if style == _JITTERED else count)
     base = np.float64(s)
     for r in range(realizations):
         _write_coefficients(coefficients, order, base, count, start, mix64(keys[r] ^ _ORDER))
         for d in range(dims):
             key = dimension_key(keys[r], d)
+            second = second_key(key)
             shuffle(strata, s, mix64(key ^ _STRATA))
             if style != _JITTERED:
-                shuffle_lines(line_keys, table, s, sublines, shared, mix64(key ^ _LINES))
+                line_key = mix64(key ^ _LINES)
+                for line in range(1 if shared and table.size > 0 else s):
+                    line_keys[line] = line_key if shared else mix64(line_key + _U64(line))
+                    if table.size > 0:
+                        shuffle(table[line * sublines :], sublines, line_keys[line])
             # The other columns of the dimension's group: the last group moves back where it would pass column s.
             group = min(d - d % strength, s + 1 - strength)
             for begin in range(0, whole, points):
@@ -130,8 +137,9 @@ def _fill(out: Array, keys: NDArray[np.uint64], s: int, strength: int, style: in
                     stratum[i] = np.int64(digits[0, i])
                 if style == _JITTERED:
                     for i in range(n):
-                        cells[i] = np.float64(strata[stratum[i]])
-                    write_in_cells(row, cells, steps, start + begin, key)
+                        cell = np.float64(strata[stratum[i]])
+                        random = hash_index(key, second, _U64(start + begin + i))
+                        row[i] = place_in_cell(cell, random, shift, step, width)
                     continue
                 place[:n] = 0
                 for column in range(group, group + strength):
@@ -139,10 +147,15 @@ def _fill(out: Array, keys: NDArray[np.uint64], s: int, strength: int, style: in
                         _column(digits[1, :n], block, column, base)
                         for i in range(n):
                             place[i] = place[i] * s + np.int64(digits[1, i])
-                permute_in_shuffled_lines(place, stratum, n, sublines, shared, subline_bits, line_keys, table)
+                if table.size > 0:
+                    for i in range(n):
+                        place[i] = table[stratum[i] * per_line + place[i]]
+                else:
+                    permute_in_lines(place[:n], stratum[:n], sublines, subline_bits, line_keys)
                 for i in range(n):
-                    cells[i] = np.float64(strata[stratum[i]] * sublines + place[i])
-                write_in_cells(row, cells, steps, start + begin, key)
+                    cell = np.float64(strata[stratum[i]] * sublines + place[i])
+                    random = hash_index(key, second, _U64(start + begin + i))
+                    row[i] = place_in_cell(cell, random, shift, step, width)
 
 
 def _prime_root(count: int, strength: int) -> int:

@@ -2,23 +2,14 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
-from numpy.typing import NDArray
 
-from samplekit.kernels import (
-    SHUFFLED,
-    hash_index,
-    helper,
-    mix64,
-    offset_bits,
-    permute_in_lines,
-    permute_range,
-    place_in_cell,
-    second_key,
-    shuffle,
-)
+from samplekit.kernels import SHUFFLED, helper, offset_bits, permute_range, shuffle
 
-Array = NDArray[np.float64]
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 _U64 = np.uint64
 BLOCK = 1024
@@ -56,58 +47,9 @@ def cell_steps(count: int) -> tuple[np.uint64, float, float]:
 
 
 @helper
-def write_in_cells(
-    row: Array, cells: Array | NDArray[np.int64], steps: tuple[np.uint64, float, float], start: int, key: np.uint64
-) -> None:
-    """Write a random place in each point's cell of [0, 1); ``steps`` are those of :func:`cell_steps`.
-
-    ``start`` is the number of the first point, ``key`` the dimension's.
-    """
-    second = second_key(key)
-    shift, step, width = steps
-    for i in range(row.size):
-        row[i] = place_in_cell(np.float64(cells[i]), hash_index(key, second, _U64(start + i)), shift, step, width)
-
-
-@helper
 def new_lines(lines: int, places: int) -> tuple[NDArray[np.uint64], NDArray[np.int64]]:
-    """Return the keys of lines, and the table of all their ``places``, for :func:`shuffle_lines` to write.
+    """Return the keys of lines, and the table of all their ``places``, both to be written.
 
     ``places`` are those of one line if all lines share their order. The table is empty where it would be too large.
     """
     return np.empty(lines, np.uint64), np.empty(places if places <= _TABULATED else 0, np.int64)
-
-
-@helper
-def shuffle_lines(
-    keys: NDArray[np.uint64], table: NDArray[np.int64], lines: int, sublines: int, shared: bool, key: np.uint64
-) -> None:
-    """Give each line a random order of its ``sublines`` places: one order for all lines if it is ``shared``."""
-    for line in range(1 if shared and table.size > 0 else lines):
-        keys[line] = key if shared else mix64(key + _U64(line))
-        if table.size > 0:
-            shuffle(table[line * sublines :], sublines, keys[line])
-
-
-@helper
-def permute_in_shuffled_lines(
-    places: NDArray[np.int64],
-    lines: NDArray[np.int64],
-    points: int,
-    sublines: int,
-    shared: bool,
-    bits: int,
-    keys: NDArray[np.uint64],
-    table: NDArray[np.int64],
-) -> None:
-    """Take the first ``points`` places to where the orders of their lines have them, in place.
-
-    ``bits`` is permutation_bits(sublines); ``sublines``, ``shared``, ``keys`` and ``table`` as for
-    :func:`shuffle_lines`.
-    """
-    per_line = 0 if shared else sublines
-    if table.size > 0:
-        for i in range(points):
-            places[i] = table[lines[i] * per_line + places[i]]
-    else:
-        permute_in_lines(places[:points], lines[:points], sublines, bits, keys)
