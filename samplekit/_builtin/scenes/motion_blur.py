@@ -28,16 +28,27 @@ LARGEST_CELL = 1.0 / 64.0
 _SLACK = 1e-12  # relative: places are rounded a few times, each time by 2^-53
 
 
-@kernel("void(float64[:,:,::1], float64[:,::1], float64[::1], float64, float64, int64, int64)")
+@kernel(
+    "void(float64[:,:,::1], float64[:,::1], float64[::1], float64[:,::1], float64[::1], float64, float64, int64, int64)"
+)
 def _sums(
-    tile: Array, boxes: Array, out: Array, confusion: float, shutter: float, lens_row: int, time_row: int
+    tile: Array,
+    boxes: Array,
+    out: Array,
+    disks: Array,
+    board: Array,
+    confusion: float,
+    shutter: float,
+    lens_row: int,
+    time_row: int,
 ) -> None:
     """Paint from back to front; ``lens_row`` and ``time_row`` of the tile are the lens and the time, -1 for none."""
     pixels, _, count = tile.shape
     x, y, shift_x, shift_y, values = np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK)
     times = np.zeros(BLOCK)
     shift_x[:], shift_y[:] = 0.0, 0.0
-    first, per_cell = BOARD[0], 1.0 / BOARD[1]
+    # A pass becomes vector instructions only if all its numbers but the samples are in local variables.
+    first, per_cell, even, odd = board[0], 1.0 / board[1], board[2], board[3]
     for pixel in range(pixels):
         left, width, top, height = boxes[0, pixel], boxes[1, pixel], boxes[2, pixel], boxes[3, pixel]
         for i in range(count):
@@ -52,10 +63,10 @@ def _sums(
                 times[i] = shutter * (tile[pixel, time_row, i] - 0.5)
         for i in range(count):
             half = 0.5 * (np.floor((x[i] - first) * per_cell) + np.floor((y[i] - first) * per_cell))
-            values[i] = BOARD[2] if half == np.floor(half) else BOARD[3]
-        for k in range(DISKS.shape[0]):
-            disk_x, disk_y, limit, disk_value = DISKS[k, 0], DISKS[k, 1], DISKS[k, 2] * DISKS[k, 2], DISKS[k, 3]
-            speed_x, speed_y = DISKS[k, 4] * DIRECTION[0], DISKS[k, 4] * DIRECTION[1]
+            values[i] = even if half == np.floor(half) else odd
+        for k in range(disks.shape[0]):
+            disk_x, disk_y, limit, disk_value = disks[k, 0], disks[k, 1], disks[k, 2] * disks[k, 2], disks[k, 3]
+            speed_x, speed_y = disks[k, 4] * DIRECTION[0], disks[k, 4] * DIRECTION[1]
             for i in range(count):
                 dx = x[i] + shift_x[i] - fma(times[i], speed_x, disk_x)
                 dy = y[i] + shift_y[i] - fma(times[i], speed_y, disk_y)
@@ -116,7 +127,7 @@ class MotionBlur(Scene):
         """Sum the values that each pixel's rays meet: see :meth:`Scene.sums`."""
         lens_row = 2 if self.confusion else -1
         time_row = tile.shape[1] - 1 if self.shutter else -1
-        _sums(tile, boxes, out, self.confusion, self.shutter, lens_row, time_row)
+        _sums(tile, boxes, out, DISKS, BOARD, self.confusion, self.shutter, lens_row, time_row)
 
     def constant(self, x_edges: Array, y_edges: Array) -> Array:
         """Return the value of the pixels that always show one cell or one disk, from the whole lens; NaN elsewhere."""
