@@ -2,16 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-from samplekit import hookimpl
+from samplekit import CommandSpec, RandomizerSpec, SamplerSpec, SceneSpec, hookimpl
 from samplekit._builtin.declarations.commands import COMMANDS
 from samplekit._builtin.declarations.randomizers import RANDOMIZERS
 from samplekit._builtin.declarations.samplers import SAMPLERS
 from samplekit._builtin.declarations.scenes import SCENES
-
-if TYPE_CHECKING:
-    from samplekit import CommandSpec, RandomizerSpec, SamplerSpec, SceneSpec
 
 
 @hookimpl

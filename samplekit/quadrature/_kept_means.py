@@ -4,18 +4,13 @@ from __future__ import annotations
 
 import hashlib
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit.quadrature import _pixel_means as adaptive
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _QUICK = 2**13
 """Number of pixels that take less than a second."""
@@ -23,7 +18,7 @@ _QUICK = 2**13
 
 def kept_means(
     parameters: str,
-    sources: Sequence[str],
+    sources: tuple[str, ...],
     function: adaptive.Function,
     x_edges: Array,
     y_edges: Array,

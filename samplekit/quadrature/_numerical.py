@@ -12,17 +12,16 @@ import math
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit._bases.reference import Reference
 from samplekit._errors import UsageError
 from samplekit.quadrature._pixel_means import pixel_means
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
     from samplekit._bases.scene import Scene
 
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 TOLERANCE = 1e-6
 """Error that the adaptive rule aims at in each pixel. Pixels with an edge use up all evaluations before."""

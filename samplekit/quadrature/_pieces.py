@@ -8,16 +8,13 @@ A function that has its steps and kinks on these curves need not be smooth at th
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit.kernels._compile import helper, kernel
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 
 @kernel("void(float64[:,::1], float64[:,::1], float64[:,::1], boolean[::1])")

@@ -7,23 +7,19 @@ circles and lines is integrated piece by piece between them: :mod:`samplekit.qua
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit._threads import default_threads
 from samplekit.quadrature._pieces import mark_crossed, piece_nodes, sum_cells
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
-    Function = Callable[[Array], Array]
-    """From points float64[2, M] of the picture to values float64[M]."""
+Array = NDArray[np.float64]
+Function = Callable[[Array], Array]
+"""From points float64[2, M] of the picture to values float64[M]."""
 
 _CELLS_AT_ONCE = 2**14
 _BUFFER = 2**20
@@ -99,23 +95,21 @@ def pixel_means(
     parts = np.maximum(1.0, np.ceil(np.array([pixel_side(x_edges), pixel_side(y_edges)]) / largest))
     at_once = max(1, int(_CELLS_AT_ONCE // parts.prod()))
 
+    steps = curves or Curves()
+
+    def compare_rules(cells: Array) -> tuple[Array, Array, int]:
+        crossed = np.zeros(cells.shape[1], np.bool_)
+        mark_crossed(cells, steps.circles, steps.lines, crossed)
+        rough, _, rough_used = _rule(function, cells, crossed, steps, orders[0], False)
+        fine, misfit, fine_used = _rule(function, cells, crossed, steps, orders[1], borders)
+        return fine, np.abs(fine - rough) + misfit, rough_used + fine_used
+
     def integrate(pixels: NDArray[np.int64]) -> None:
         column, row = pixels % width, pixels // width
         boxes = np.array([x_edges[column], x_edges[column + 1], y_edges[row], y_edges[row + 1]])
         share = evaluations * pixels.size / wanted.size
         cells, owners = _divided(boxes, np.arange(pixels.size), int(parts[0]), int(parts[1]))
-        found = _integrate(
-            function,
-            cells,
-            owners,
-            pixels.size,
-            1.0 / parts.prod(),
-            curves or Curves(),
-            orders,
-            borders,
-            tolerance,
-            share,
-        )
+        found = _integrate(compare_rules, cells, owners, pixels.size, 1.0 / parts.prod(), tolerance, share)
         means[pixels], errors[pixels] = found
 
     batches = [wanted[first : first + at_once] for first in range(0, wanted.size, at_once)]
@@ -140,28 +134,25 @@ def _divided(cells: Array, owners: NDArray[np.int64], across: int, down: int) ->
 
 
 def _integrate(
-    function: Function,
+    compare_rules: Callable[[Array], tuple[Array, Array, int]],
     cells: Array,
     owners: NDArray[np.int64],
     pixels: int,
     fraction: float,
-    curves: Curves,
-    orders: tuple[int, int],
-    borders: bool,
     tolerance: float,
     evaluations: float,
 ) -> tuple[Array, Array]:
-    """Integrate over cells, each ``fraction`` of a pixel; return sums and errors of the pixels, float64[P] each."""
+    """Integrate over cells, each ``fraction`` of a pixel; return sums and errors of the pixels, float64[P] each.
+
+    ``compare_rules`` takes cells float64[4, C]. It returns the mean over each, the difference of two rules there, and
+    the number of evaluations.
+    """
     means, errors = np.zeros(pixels), np.zeros(pixels)
     for _ in range(_DEEPEST):
-        crossed = np.zeros(cells.shape[1], np.bool_)
-        mark_crossed(cells, curves.circles, curves.lines, crossed)
-        rough, _, rough_used = _rule(function, cells, crossed, curves, orders[0], False)
-        fine, misfit, fine_used = _rule(function, cells, crossed, curves, orders[1], borders)
-        evaluations -= rough_used + fine_used
-        difference = np.abs(fine - rough) + misfit
+        fine, difference, used = compare_rules(cells)
+        evaluations -= used
         done = difference <= tolerance / math.sqrt(fraction)
-        if evaluations < 4 * (rough_used + fine_used) * np.count_nonzero(~done) / done.size:
+        if evaluations < 4 * used * np.count_nonzero(~done) / done.size:
             done[:] = True
         means += np.bincount(owners[done], fine[done], pixels) * fraction
         errors += np.bincount(owners[done], difference[done], pixels) * fraction

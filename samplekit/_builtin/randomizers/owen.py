@@ -8,11 +8,11 @@ a random digit. In a composite base, where multiplying by a factor may be no per
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
-from samplekit import Randomizer
+from samplekit import Randomizer, Realizations
 from samplekit.kernels import (
     DIGITS_LIMIT,
     TWO_M32,
@@ -36,12 +36,7 @@ from samplekit.kernels import (
     tail_value,
 )
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from samplekit import Realizations
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _U64 = np.uint64
 _U32 = np.uint32

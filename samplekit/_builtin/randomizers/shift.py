@@ -6,19 +6,13 @@ distances change by up to 2^-52.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
-from samplekit import Randomizer
+from samplekit import Randomizer, Realizations
 from samplekit.kernels import dimension_key, kernel, mix64, unit
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from samplekit import Realizations
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _SHIFT = np.uint64(0x1F83D9ABFB41BD6B)
 

@@ -5,11 +5,10 @@ L'Ecuyer and Lemieux 2002, "Recent advances in randomized quasi-Monte Carlo meth
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
-from samplekit import Randomizer
+from samplekit import Randomizer, Realizations
 from samplekit.kernels import (
     DIGITS_LIMIT,
     TWO_M53,
@@ -23,12 +22,7 @@ from samplekit.kernels import (
     tail_digits,
 )
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from samplekit import Realizations
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _U64 = np.uint64
 _TWO_P53 = 2.0**53

@@ -6,11 +6,12 @@ the coordinates of point i + j are those of point i exclusive-ored with those of
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 import numpy as np
+from numpy.typing import NDArray
 
-from samplekit import Sampler
+from samplekit import Realizations, Sampler
 from samplekit.kernels import (
     TWO_M32,
     helper,
@@ -25,17 +26,11 @@ from samplekit.kernels import (
     tail_value,
 )
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from numpy.typing import NDArray
-
-    from samplekit import Realizations
-
-    Array = NDArray[np.float64]
-    Fill = Callable[[Array, Realizations, int, int], None]
+Array = NDArray[np.float64]
+Fill = Callable[[Array, Realizations, int, int], None]
 
 _U32 = np.uint32
+_U64 = np.uint64
 _TABLE = 1024
 """Largest number of points of a table: a few tables fit into the fastest cache."""
 
@@ -60,59 +55,44 @@ def _reversed_table(columns: NDArray[np.uint32], points: int) -> NDArray[np.uint
 
 
 @helper
-def _reversed_coordinate(columns: NDArray[np.uint32], index: int) -> np.uint32:
-    """Return one coordinate of one point, with digit 1 in bit 0; ``columns`` uint32[32]."""
-    word = _U32(0)
-    bit = 0
-    while index > 0:
-        if index & 1:
-            word ^= columns[bit]
-        index >>= 1
-        bit += 1
-    return reverse_bits32(word)
+def write_scrambled(
+    row: Array, digits: NDArray[np.uint32], origin: np.uint32, beyond: np.uint32, key: np.uint64
+) -> None:
+    """Write coordinates under Owen's scrambling.
+
+    Their first 32 digits are ``digits`` exclusive-ored with ``origin``, those after them are ``beyond``. Of each the
+    first digit is in bit 0.
+    """
+    addend = owen_addend(key)
+    factor = owen_factor(key)
+    tail = tail_value(_U64(reverse_bits32(beyond) >> _U32(11)) ^ owen_tail(key))
+    for i in range(row.size):
+        row[i] = np.float64(scramble_reversed(_U32(digits[i] ^ origin), addend, factor)) * TWO_M32 + tail
 
 
-@kernel("void(float64[:,:,::1], uint32[:,::1], int64)")
-def _fill(out: Array, columns: NDArray[np.uint32], start: int) -> None:
-    """Write the points start, start + 1, ... of the first realisation."""
-    _, dims, points = out.shape
-    table = _reversed_table(columns, points)
-    size = table.shape[1]
-    first = 0
-    while first < points:
-        offset = (start + first) % size
-        run = min(size - offset, points - first)
-        for d in range(dims):
-            origin = _reversed_coordinate(columns[d], start + first - offset)
-            row = out[0, d, first : first + run]
-            coordinates = table[d, offset : offset + run]
-            for i in range(run):
-                row[i] = np.float64(reverse_bits32(_U32(coordinates[i] ^ origin))) * TWO_M32
-        first += run
-
-
-@kernel("void(float64[:,:,::1], uint64[::1], uint32[:,::1], int64)")
-def _fill_scrambled(out: Array, keys: NDArray[np.uint64], columns: NDArray[np.uint32], start: int) -> None:
-    """Write the points start, start + 1, ... of every realisation under Owen's scrambling."""
+@kernel("void(float64[:,:,::1], uint64[::1], uint32[:,::1], int64, boolean)")
+def _fill(out: Array, keys: NDArray[np.uint64], columns: NDArray[np.uint32], start: int, scrambled: bool) -> None:
+    """Write the points start, start + 1, ...: of every realisation if ``scrambled``, else of the first."""
     realizations, dims, points = out.shape
     table = _reversed_table(columns, points)
     size = table.shape[1]
+    origin = np.empty(1, np.uint32)
     first = 0
     while first < points:
         offset = (start + first) % size
         run = min(size - offset, points - first)
         for d in range(dims):
-            origin = _reversed_coordinate(columns[d], start + first - offset)
+            net_coordinates(origin, columns[d], start + first - offset)
+            reversed_origin = reverse_bits32(origin[0])
             coordinates = table[d, offset : offset + run]
-            for r in range(realizations):
-                key = owen_key(keys[r], d)
-                addend = owen_addend(key)
-                factor = owen_factor(key)
-                tail = tail_value(owen_tail(key))
-                row = out[r, d, first : first + run]
+            if scrambled:
+                for r in range(realizations):
+                    row = out[r, d, first : first + run]
+                    write_scrambled(row, coordinates, reversed_origin, _U32(0), owen_key(keys[r], d))
+            else:
+                row = out[0, d, first : first + run]
                 for i in range(run):
-                    x = _U32(coordinates[i] ^ origin)
-                    row[i] = np.float64(scramble_reversed(x, addend, factor)) * TWO_M32 + tail
+                    row[i] = np.float64(reverse_bits32(_U32(coordinates[i] ^ reversed_origin))) * TWO_M32
         first += run
 
 
@@ -125,7 +105,7 @@ class DigitalSequence(Sampler):
 
     def fill(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`Sampler.fill`."""
-        _fill(out, self.columns(out.shape[1]), start)
+        _fill(out, realizations.keys, self.columns(out.shape[1]), start, False)
         out[1:] = out[0]
 
     def fused(self, randomizer: str) -> Fill | None:
@@ -133,4 +113,4 @@ class DigitalSequence(Sampler):
         return self._fill_owen if randomizer == "owen" else None
 
     def _fill_owen(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
-        _fill_scrambled(out, realizations.keys, self.columns(out.shape[1]), start)
+        _fill(out, realizations.keys, self.columns(out.shape[1]), start, True)

@@ -14,19 +14,14 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cache
 from math import comb
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
-from samplekit import Net, PowersOf, Sampler, UsageError
+from samplekit import Net, PowersOf, Realizations, Sampler, SamplerSpec, UsageError
 from samplekit.kernels import kernel, largest_power, primes, table_size
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from samplekit import Realizations, SamplerSpec
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _NET_DIMS = (2, 5)
 """Dimensions of the nets that are declared; that of all dimensions has t = 0 as well."""

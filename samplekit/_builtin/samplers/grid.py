@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from itertools import accumulate
 from operator import mul
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
-from samplekit import Products, Sampler, UsageError, grid_sides
+from samplekit import Products, Realizations, Sampler, UsageError, grid_sides
 from samplekit.kernels import (
     SHUFFLED,
     cell_along_axis,
@@ -29,12 +29,7 @@ from samplekit.kernels import (
     shuffle,
 )
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from samplekit import Realizations
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _U64 = np.uint64
 _ORDER = _U64(0xA54FF53A5F1D36F1)

@@ -6,31 +6,14 @@ it is N-rooks sampling (Shirley 1991, "Discrepancy as a quality measure for samp
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
-from samplekit import Sampler
-from samplekit.kernels import (
-    SHUFFLED,
-    dimension_key,
-    hash_index,
-    kernel,
-    mix64,
-    offset_bits,
-    permutation_bits,
-    permute_range,
-    place_in_cell,
-    second_key,
-    shuffle,
-)
+from samplekit import Realizations, Sampler
+from samplekit._builtin.samplers.strata import cell_steps, new_places, ordered_places
+from samplekit.kernels import dimension_key, hash_index, kernel, mix64, permutation_bits, place_in_cell, second_key
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from samplekit import Realizations
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _U64 = np.uint64
 _SHUFFLE = _U64(0x6A09E667F3BCC908)
@@ -39,27 +22,18 @@ _SHUFFLE = _U64(0x6A09E667F3BCC908)
 @kernel("void(float64[:,:,::1], uint64[::1], int64, int64)")
 def _fill(out: Array, keys: NDArray[np.uint64], count: int, start: int) -> None:
     realizations, dims, points = out.shape
-    place = np.empty(max(points, min(count, SHUFFLED)), np.int64)
-    bits = offset_bits(count)
-    shift = _U64(64 - bits)
-    step = 2.0 ** (-bits)
-    width = 1.0 / count
-    index_bits = permutation_bits(count)
+    places = new_places(points, count)
+    bits = permutation_bits(count)
+    shift, step, width = cell_steps(count)
     for r in range(realizations):
         for d in range(dims):
             key = dimension_key(keys[r], d)
+            cells = ordered_places(places, points, count, start, bits, mix64(key ^ _SHUFFLE))
             second = second_key(key)
-            order = mix64(key ^ _SHUFFLE)
-            first = start
-            if count <= SHUFFLED:
-                shuffle(place, count, order)
-            else:
-                first = 0
-                permute_range(place[:points], start, count, index_bits, order)
             row = out[r, d]
             for i in range(points):
-                cell = np.float64(place[first + i])
-                row[i] = place_in_cell(cell, hash_index(key, second, _U64(start + i)), shift, step, width)
+                random = hash_index(key, second, _U64(start + i))
+                row[i] = place_in_cell(np.float64(cells[i]), random, shift, step, width)
 
 
 class LatinHypercube(Sampler):

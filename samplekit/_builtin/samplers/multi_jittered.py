@@ -9,40 +9,34 @@ Beyond two dimensions, pairs of dimensions are padded: each pair is a set of its
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
-from samplekit import Sampler, UsageError, grid_sides
+from samplekit import Realizations, Sampler, UsageError, grid_sides
+from samplekit._builtin.samplers.strata import (
+    BLOCK,
+    cell_steps,
+    new_lines,
+    new_places,
+    ordered_places,
+)
 from samplekit.kernels import (
-    SHUFFLED,
     dimension_key,
     hash_index,
     kernel,
     mix64,
-    offset_bits,
     permutation_bits,
     permute_in_lines,
-    permute_range,
     place_in_cell,
     second_key,
     shuffle,
 )
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from samplekit import Realizations
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _U64 = np.uint64
 _ORDER = _U64(0xBB67AE8584CAA73B)
 _LINES = _U64(0x3C6EF372FE94F82B)
-_BLOCK = 1024
-"""Number of points that are made at a time, so that their intermediate values stay in the cache."""
-_TABULATED = 1 << 16
-"""Largest table of shuffled places: the places of one line if all lines share them, else those of all lines."""
 
 
 @kernel("void(float64[:,:,::1], uint64[::1], int64, int64, int64, int64, boolean)")
@@ -50,59 +44,47 @@ def _fill(
     out: Array, keys: NDArray[np.uint64], columns: int, rows: int, count: int, start: int, correlated: bool
 ) -> None:
     realizations, dims, whole = out.shape
-    points = min(whole, _BLOCK)
-    shuffled = count <= SHUFFLED
-    places = np.empty(SHUFFLED, np.int64)
-    tabulated = (max(columns, rows) if correlated else count) <= _TABULATED
-    table = np.empty(max(columns, rows) if correlated else count if tabulated else 0, np.int64)
-    place = np.empty(points, np.int64)
-    order = np.empty(points, np.float64)
-    line = np.empty(points, np.int64)
-    line_keys = np.empty(max(columns, rows), np.uint64)
-    bits = offset_bits(count)
-    shift = _U64(64 - bits)
-    step = 2.0 ** (-bits)
-    width = 1.0 / count
+    points = min(whole, BLOCK)
+    places = new_places(points, count)
+    line_keys, table = new_lines(max(columns, rows), max(columns, rows) if correlated else count)
+    place, line, order = np.empty(points, np.int64), np.empty(points, np.int64), np.empty(points)
     count_bits = permutation_bits(count)
+    shift, step, width = cell_steps(count)
     row_length = np.float64(columns)
     per_row = 1.0 / row_length
     for r in range(realizations):
         for d in range(dims):
             order_key = mix64(dimension_key(keys[r], d - d % 2) ^ _ORDER)
-            if d > 1 and d % 2 == 0 and shuffled:
-                shuffle(places, count, order_key)
             # Along x the lines are the columns, each with one sub-column per row; along y the reverse.
             lines, sublines = (columns, rows) if d % 2 == 0 else (rows, columns)
             key = dimension_key(keys[r], d)
             second = second_key(key)
-            line_key = mix64(key ^ _LINES)
             subline_bits = permutation_bits(sublines)
             per_line = 0 if correlated else sublines
-            if tabulated and correlated:
+            line_key = mix64(key ^ _LINES)
+            if correlated and table.size > 0:
                 shuffle(table, sublines, line_key)
             else:
                 for k in range(lines):
                     line_keys[k] = line_key if correlated else mix64(line_key + _U64(k))
-                    if tabulated:
+                    if table.size > 0:
                         shuffle(table[k * sublines :], sublines, line_keys[k])
             for begin in range(start, start + whole, points):
                 n = min(points, start + whole - begin)
+                # The second dimension of a pair finds the order of the first, unless another block came between.
                 if d < 2:
                     for i in range(n):
                         order[i] = np.float64(begin + i)
-                elif shuffled:
+                elif d % 2 == 0 or whole > points:
+                    ordered = ordered_places(places, n, count, begin, count_bits, order_key)
                     for i in range(n):
-                        order[i] = np.float64(places[begin + i])
-                else:
-                    permute_range(place[:n], begin, count, count_bits, order_key)
-                    for i in range(n):
-                        order[i] = np.float64(place[i])
+                        order[i] = np.float64(ordered[i])
                 for i in range(n):
                     across = np.floor((order[i] + 0.5) * per_row)
                     column = order[i] - row_length * across
                     line[i] = np.int64(column if d % 2 == 0 else across)
                     place[i] = np.int64(across if d % 2 == 0 else column)
-                if tabulated:
+                if table.size > 0:
                     for i in range(n):
                         place[i] = table[line[i] * per_line + place[i]]
                 else:

@@ -23,33 +23,32 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import count as count_from
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
-from samplekit import LatinStrata, OrthogonalArray, PrimePowers, Sampler, UsageError
+from samplekit import LatinStrata, OrthogonalArray, PrimePowers, Realizations, Sampler, SamplerSpec, UsageError
+from samplekit._builtin.samplers.strata import (
+    BLOCK,
+    cell_steps,
+    new_lines,
+    new_places,
+    ordered_places,
+)
 from samplekit.kernels import (
-    SHUFFLED,
     dimension_key,
     hash_index,
     helper,
     kernel,
     mix64,
-    offset_bits,
     permutation_bits,
     permute_in_lines,
-    permute_range,
     place_in_cell,
     second_key,
     shuffle,
 )
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from samplekit import Realizations, SamplerSpec
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _U64 = np.uint64
 _ORDER = _U64(0x1F83D9ABFB41BD6B)
@@ -57,10 +56,6 @@ _STRATA = _U64(0x5BE0CD19137E2179)
 _LINES = _U64(0x3C6EF372FE94F82B)
 _STYLES = ("jittered", "multi-jittered", "correlated")
 _JITTERED, _, _CORRELATED = range(3)
-_BLOCK = 1024
-"""Number of points that are made at a time, so that their intermediate values stay in the cache."""
-_TABULATED = 1 << 16
-"""Largest table of shuffled places: the places of one stratum if all strata share them, else those of all strata."""
 
 
 @helper
@@ -89,16 +84,12 @@ def _write_coefficients(
 ) -> None:
     """Write the digits in base s of the places that start, start + 1, ... have in a random order of all points."""
     strength, whole = coefficients.shape
-    per_base = 1.0 / base
-    if count <= SHUFFLED:
-        shuffle(order, count, key)
-    for begin in range(0, whole, _BLOCK):
-        n = min(_BLOCK, whole - begin)
-        if count > SHUFFLED:
-            permute_range(order[:n], start + begin, count, permutation_bits(count), key)
-        first = start + begin if count <= SHUFFLED else 0
+    per_base, bits = 1.0 / base, permutation_bits(count)
+    for begin in range(0, whole, BLOCK):
+        n = min(BLOCK, whole - begin)
+        ordered = ordered_places(order, n, count, start + begin, bits, key)
         for i in range(n):
-            coefficients[0, begin + i] = np.float64(order[first + i])
+            coefficients[0, begin + i] = np.float64(ordered[i])
         for k in range(strength):
             row = coefficients[k, begin : begin + n]
             above = coefficients[min(k + 1, strength - 1), begin : begin + n]
@@ -112,23 +103,16 @@ def _write_coefficients(
 @kernel("void(float64[:,:,::1], uint64[::1], int64, int64, int64, int64, int64)")
 def _fill(out: Array, keys: NDArray[np.uint64], s: int, strength: int, style: int, count: int, start: int) -> None:
     realizations, dims, whole = out.shape
-    points = min(whole, _BLOCK)
+    points = min(whole, BLOCK)
     sublines = count // s
-    order = np.empty(max(points, min(count, SHUFFLED)), np.int64)
-    coefficients = np.empty((strength, whole), np.float64)
-    digits = np.empty((2, points), np.float64)
-    stratum = np.empty(points, np.int64)
-    place = np.empty(points, np.int64)
-    strata = np.empty(s, np.int64)
-    line_keys = np.empty(s, np.uint64)
-    places = sublines if style == _CORRELATED else count
-    tabulated = style != _JITTERED and places <= _TABULATED
-    per_line = 0 if style == _CORRELATED else sublines
-    table = np.empty(places if tabulated else 0, np.int64)
+    order = new_places(points, count)
+    coefficients, digits = np.empty((strength, whole)), np.empty((2, points))
+    stratum, place, strata = np.empty(points, np.int64), np.empty(points, np.int64), np.empty(s, np.int64)
+    shared = style == _CORRELATED
+    line_keys, table = new_lines(s, sublines if shared else count)
     subline_bits = permutation_bits(sublines)
-    cells = s if style == _JITTERED else count
-    bits = offset_bits(cells)
-    shift, step, width = _U64(64 - bits), 2.0 ** (-bits), 1.0 / cells
+    per_line = 0 if shared else sublines
+    shift, step, width = cell_steps(s if style == _JITTERED else count)
     base = np.float64(s)
     for r in range(realizations):
         _write_coefficients(coefficients, order, base, count, start, mix64(keys[r] ^ _ORDER))
@@ -136,11 +120,12 @@ def _fill(out: Array, keys: NDArray[np.uint64], s: int, strength: int, style: in
             key = dimension_key(keys[r], d)
             second = second_key(key)
             shuffle(strata, s, mix64(key ^ _STRATA))
-            line_key = mix64(key ^ _LINES)
-            for line in range(1 if tabulated and style == _CORRELATED else s):
-                line_keys[line] = line_key if style == _CORRELATED else mix64(line_key + _U64(line))
-                if tabulated:
-                    shuffle(table[line * sublines :], sublines, line_keys[line])
+            if style != _JITTERED:
+                line_key = mix64(key ^ _LINES)
+                for line in range(1 if shared and table.size > 0 else s):
+                    line_keys[line] = line_key if shared else mix64(line_key + _U64(line))
+                    if table.size > 0:
+                        shuffle(table[line * sublines :], sublines, line_keys[line])
             # The other columns of the dimension's group: the last group moves back where it would pass column s.
             group = min(d - d % strength, s + 1 - strength)
             for begin in range(0, whole, points):
@@ -162,7 +147,7 @@ def _fill(out: Array, keys: NDArray[np.uint64], s: int, strength: int, style: in
                         _column(digits[1, :n], block, column, base)
                         for i in range(n):
                             place[i] = place[i] * s + np.int64(digits[1, i])
-                if tabulated:
+                if table.size > 0:
                     for i in range(n):
                         place[i] = table[stratum[i] * per_line + place[i]]
                 else:

@@ -8,19 +8,15 @@ and 3 in all four (Sobol' 1967). Every block uses these four again, instead of l
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING
 
-from samplekit import Sampler
+import numpy as np
+from numpy.typing import NDArray
+
+from samplekit import Realizations, Sampler
 from samplekit._builtin.samplers.sobol import direction_numbers
 from samplekit.kernels import fill_padded, group_tables
 
-if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
-    from samplekit import Realizations
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 
 @cache

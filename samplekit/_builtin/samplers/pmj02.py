@@ -15,19 +15,14 @@ shows.
 from __future__ import annotations
 
 from functools import cache
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
-from samplekit import Sampler
-from samplekit.kernels import BITS, fill_padded, group_tables
+from samplekit import Realizations, Sampler
+from samplekit.kernels import BITS, fill_padded, group_tables, reverse_bits32
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from samplekit import Realizations
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 
 def pmj02_columns() -> NDArray[np.uint32]:
@@ -37,7 +32,7 @@ def pmj02_columns() -> NDArray[np.uint32]:
     prefix of 2^m points. Column m of U is the u with u_m = 1 and no later digits for which the first k = m // 2 digits
     of u and of P u are 0; for odd m this leaves a choice, and the next digit of one of the two is 0 as well.
     """
-    columns = np.zeros((2, BITS), np.uint64)
+    columns = np.zeros((2, BITS), np.uint32)
     for m in range(BITS):
         k = m // 2
         wanted_x, wanted_y = k, k
@@ -45,8 +40,8 @@ def pmj02_columns() -> NDArray[np.uint32]:
             # x moves at m = 1, 5, ..., y at m = 3, 7, ...
             wanted_x, wanted_y = (k, k + 1) if k % 2 == 0 else (k + 1, k)
         u = _solve(m, wanted_x, wanted_y)
-        columns[:, m] = _mirror(u), _mirror(_pascal(u))
-    return columns.astype(np.uint32)
+        columns[:, m] = [reverse_bits32(np.uint32(digits)) for digits in (u, _pascal(u))]
+    return columns
 
 
 def _pascal(u: int) -> int:
@@ -74,11 +69,6 @@ def _solve(m: int, zeros_x: int, zeros_y: int) -> int:
     for bit, pivot in pivots:
         u |= (pivot >> m & 1) << bit
     return u
-
-
-def _mirror(digits: int) -> int:
-    """Reverse the order of 32 bits."""
-    return int(f"{digits:0{BITS}b}"[::-1], 2)
 
 
 @cache

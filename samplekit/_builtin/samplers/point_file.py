@@ -13,19 +13,14 @@ from dataclasses import replace
 from itertools import count as count_from
 from math import gcd
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
-from samplekit import Exactly, Sampler, UsageError, parse_choice
+from samplekit import Exactly, Realizations, Sampler, SamplerSpec, UsageError, parse_choice
 from samplekit.files import read_points
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from samplekit import Realizations, SamplerSpec
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _GOLDEN = (1 + 5**0.5) / 2
 

@@ -12,23 +12,17 @@ fall faster.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
-from samplekit import Net, Sampler
+from samplekit import Net, Realizations, Sampler, SamplerSpec
 from samplekit.kernels import PERMUTED, PLAIN, SHIFTED, fill_mirrored, fill_nested, primes
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from numpy.typing import NDArray
-
-    from samplekit import Realizations, SamplerSpec
-
-    Array = NDArray[np.float64]
-    Fill = Callable[[Array, Realizations, int, int], None]
+Array = NDArray[np.float64]
+Fill = Callable[[Array, Realizations, int, int], None]
 
 _SCRAMBLE = np.uint64(0x9159015A3070DD17)
 

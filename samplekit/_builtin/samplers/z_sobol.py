@@ -21,38 +21,26 @@ Two things differ from the paper:
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
-from samplekit import Sampler, seed_word
+from samplekit import Realizations, Sampler, seed_word
+from samplekit._builtin.samplers.digital_sequence import write_scrambled
 from samplekit._builtin.samplers.pixel_order import TILE_LEVELS, matched_place, random_place
 from samplekit.kernels import (
     SHUFFLED,
-    TWO_M32,
     dimension_key,
     hash_index,
     helper,
     kernel,
     mix64,
-    owen_addend,
-    owen_factor,
     owen_key,
-    owen_tail,
-    reverse_bits32,
     scatter,
-    scramble_reversed,
     second_key,
     shuffle,
-    tail_value,
 )
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from samplekit import Realizations
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _U32 = np.uint32
 _U64 = np.uint64
@@ -73,16 +61,6 @@ def _pascal(v: np.uint32) -> np.uint32:
     v = _U32(v ^ ((v & _U32(0xF0F0F0F0)) >> _U32(4)))
     v = _U32(v ^ ((v & _U32(0xFF00FF00)) >> _U32(8)))
     return _U32(v ^ (v >> _U32(16)))
-
-
-@helper
-def _scramble(row: Array, digits: NDArray[np.uint32], beyond: np.uint32, key: np.uint64) -> None:
-    """Owen-scramble coordinates: ``digits`` are the first 32, ``beyond`` those after them; the first is in bit 0."""
-    addend = owen_addend(key)
-    factor = owen_factor(key)
-    tail = tail_value(_U64(reverse_bits32(beyond) >> _U32(11)) ^ owen_tail(key))
-    for i in range(row.size):
-        row[i] = np.float64(scramble_reversed(_U32(digits[i]), addend, factor)) * TWO_M32 + tail
 
 
 @kernel("void(float64[:,:,::1], int64[::1], int64[::1], uint64, boolean, int64, int64)")
@@ -120,13 +98,13 @@ def _fill(
             lower, upper = _U32(first & 0xFFFFFFFF), _U32(first >> 32)
             for i in range(points):
                 digits[i] = order[i] | lower
-            _scramble(out[r, d], digits, upper, owen_key(tile, d))
+            write_scrambled(out[r, d], digits, _U32(0), upper, owen_key(tile, d))
             if d + 1 < dims:
                 # The digits from the 33rd on add to the first 32 digits of y as if they stood 32 places earlier.
                 carried = _pascal(upper)
                 for i in range(points):
                     digits[i] = _pascal(_U32(digits[i])) ^ carried
-                _scramble(out[r, d + 1], digits, carried, owen_key(tile, d + 1))
+                write_scrambled(out[r, d + 1], digits, _U32(0), carried, owen_key(tile, d + 1))
 
 
 class ZSobol(Sampler):

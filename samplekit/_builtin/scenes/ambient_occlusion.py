@@ -17,19 +17,14 @@ pixel is an adaptive integral of the closed forms, which follows that circle.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit import Scene, UsageError
 from samplekit.kernels import BLOCK, cosine_of_turns, fma, kernel, lane_sum
 
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _VIEW = 5.0  # width and height of the picture, in units of the floor
 _SINE, _COSINE = 0.6, 0.8  # of the camera's elevation
@@ -92,7 +87,7 @@ class AmbientOcclusion(Scene):
             raise UsageError(f"radius={radius:g}, height={height:g}: the sphere would go through the floor")
         self.radius, self.height, self.cx, self.cy = float(radius), float(height), float(cx), float(cy)
 
-    def dimensions(self) -> Mapping[str, int]:
+    def dimensions(self) -> dict[str, int]:
         """Return the dimensions of pixel and direction; without a sphere those of the pixel alone."""
         return {"pixel": 2, "direction": 2} if self.radius > 0.0 else {"pixel": 2}
 

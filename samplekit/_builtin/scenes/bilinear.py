@@ -5,17 +5,13 @@ Christensen, Kensler, Kilpatrick 2018, "Progressive multi-jittered sample sequen
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit import Scene
 from samplekit.kernels import BLOCK, fma, kernel, lane_sum
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 
 @kernel("void(float64[:,:,::1], float64[:,::1], float64[::1])")

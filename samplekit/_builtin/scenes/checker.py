@@ -6,17 +6,13 @@ alternates between 1 and -1.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit import Scene
 from samplekit.kernels import BLOCK, fma, helper, kernel, lane_sum, two_product
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 
 class Checker(Scene):

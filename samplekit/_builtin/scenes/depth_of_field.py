@@ -11,27 +11,22 @@ adaptively.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit import Scene, UsageError
 from samplekit.kernels import BLOCK, disk_point, fma, kernel, lane_sum
 
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from numpy.typing import NDArray
-
-    from samplekit.quadrature import Curves
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 FRONT_DEPTH, RING_DEPTH, WALL_DEPTH = 0.5, 1.0, 2.0
 # Each row: centre, radius, value. The disks do not overlap, so that none hides another at their common depth.
 FRONT = np.array([[0.22, 0.25, 0.13, 1.0], [0.80, 0.62, 0.10, 0.875], [0.30, 0.86, 0.07, 0.75]])
 # Centre, inner and outer radius, value.
 RING = np.array([0.55, 0.48, 0.17, 0.29, 0.5])
+INNER, OUTER = 3, 4
+CIRCLES = np.array([*FRONT, RING[[0, 1, 2, 4]], RING[[0, 1, 3, 4]]])
+"""The disks in front, and the ring's inner and outer circle: float64[5, 4], as in ``FRONT``."""
 # First line, side of a cell, number of cells along a side; values of even cells, of odd cells and beyond the wall.
 WALL = np.array([-0.92, 0.35, 8.0, 0.0625, 0.3125, 0.1875])
 LARGEST_CONFUSION = 1e12
@@ -40,19 +35,17 @@ LARGEST_CELL = 1.0 / 64.0
 """The reference first divides pixels into cells of at most this side, then refines where the integrand varies."""
 
 
-@kernel(
-    "void(float64[:,:,::1], float64[:,::1], float64[::1], float64[:,::1], float64[::1], float64[::1], float64[::1])"
-)
-def _sums(tile: Array, boxes: Array, out: Array, front: Array, ring: Array, wall: Array, confusion: Array) -> None:
+@kernel("void(float64[:,:,::1], float64[:,::1], float64[::1], float64[::1])")
+def _sums(tile: Array, boxes: Array, out: Array, confusion: Array) -> None:
     """Paint from back to front, layer after layer, so that each pass over the samples becomes vector instructions.
 
-    That needs the numbers of a layer in local variables: for all that the compiler knows, ``out`` and the arrays of
-    layers may share memory.
+    That needs the circles of confusion in local variables: for all that the compiler knows, ``out`` and ``confusion``
+    may share memory.
     """
     pixels, dims, count = tile.shape
     x, y, lens_x, lens_y, values = np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK)
-    first, per_cell, cells, even, odd, beyond = wall[0], 1.0 / wall[1], wall[2], wall[3], wall[4], wall[5]
-    ring_x, ring_y, inner, outer, ring_value = ring[0], ring[1], ring[2] * ring[2], ring[3] * ring[3], ring[4]
+    first, per_cell, cells = WALL[0], 1.0 / WALL[1], WALL[2]
+    inner, outer = RING[2] * RING[2], RING[3] * RING[3]
     front_coc, ring_coc, wall_coc = confusion[0], confusion[1], confusion[2]
     lens_x[:], lens_y[:] = 0.0, 0.0
     for pixel in range(pixels):
@@ -67,16 +60,16 @@ def _sums(tile: Array, boxes: Array, out: Array, front: Array, ring: Array, wall
             column = np.floor((fma(wall_coc, lens_x[i], x[i]) - first) * per_cell)
             row = np.floor((fma(wall_coc, lens_y[i], y[i]) - first) * per_cell)
             half = 0.5 * (column + row)
-            value = even if half == np.floor(half) else odd
+            value = WALL[3] if half == np.floor(half) else WALL[4]
             within = (column >= 0.0) & (column < cells) & (row >= 0.0) & (row < cells)
-            values[i] = value if within else beyond
+            values[i] = value if within else WALL[5]
         for i in range(count):
-            dx = fma(ring_coc, lens_x[i], x[i]) - ring_x
-            dy = fma(ring_coc, lens_y[i], y[i]) - ring_y
+            dx = fma(ring_coc, lens_x[i], x[i]) - RING[0]
+            dy = fma(ring_coc, lens_y[i], y[i]) - RING[1]
             squared = fma(dx, dx, dy * dy)
-            values[i] = ring_value if (squared >= inner) & (squared < outer) else values[i]
-        for k in range(front.shape[0]):
-            disk_x, disk_y, limit, disk_value = front[k, 0], front[k, 1], front[k, 2] * front[k, 2], front[k, 3]
+            values[i] = RING[4] if (squared >= inner) & (squared < outer) else values[i]
+        for k in range(FRONT.shape[0]):
+            disk_x, disk_y, limit, disk_value = FRONT[k, 0], FRONT[k, 1], FRONT[k, 2] * FRONT[k, 2], FRONT[k, 3]
             for i in range(count):
                 dx = fma(front_coc, lens_x[i], x[i]) - disk_x
                 dy = fma(front_coc, lens_y[i], y[i]) - disk_y
@@ -119,13 +112,13 @@ class DepthOfField(Scene):
                 f" {LARGEST_CONFUSION:g} pictures"
             )
 
-    def dimensions(self) -> Mapping[str, int]:
+    def dimensions(self) -> dict[str, int]:
         """Return the dimensions of pixel and lens; with the aperture 0 those of the pixel alone."""
         return {"pixel": 2, "lens": 2} if self.aperture > 0.0 else {"pixel": 2}
 
     def sums(self, tile: Array, boxes: Array, out: Array) -> None:
         """Sum the values that each pixel's rays meet: see :meth:`Scene.sums`."""
-        _sums(tile, boxes, out, FRONT, RING, WALL, self.confusion)
+        _sums(tile, boxes, out, self.confusion)
 
     def constant(self, x_edges: Array, y_edges: Array) -> Array:
         """Return the value of the pixels whose rays from all points of the lens meet one value, NaN elsewhere."""
@@ -133,13 +126,13 @@ class DepthOfField(Scene):
 
         out = np.empty((y_edges.size - 1, x_edges.size - 1))
         x, y = np.ascontiguousarray(x_edges, np.float64), np.ascontiguousarray(y_edges, np.float64)
-        constant_pixels(x, y, FRONT, RING, WALL, self.confusion, out)
+        constant_pixels(x, y, self.confusion, out)
         return out
 
     def exact(self, x_edges: Array, y_edges: Array) -> Array:
         """Return the mean over each pixel and the lens: float64[h, w], within ``reference_error``."""
         from samplekit._builtin.scenes import depth_of_field_lens
-        from samplekit.quadrature import kept_means, pixel_side
+        from samplekit.quadrature import Curves, kept_means, pixel_side
 
         # A blur of many pixels is smooth enough for the adaptive rule; the edges of sharper layers are followed.
         sharp = 8.0 * min(LARGEST_CELL, max(pixel_side(x_edges), pixel_side(y_edges)))
@@ -150,7 +143,7 @@ class DepthOfField(Scene):
             x_edges,
             y_edges,
             known=self.constant(x_edges, y_edges),
-            curves=self._edges(sharp),
+            curves=Curves(*self._edges(sharp)),
             # Larger cells will do where every layer is blurred over many of them.
             largest=max(LARGEST_CELL, np.abs(self.confusion).min() / 8.0),
         )
@@ -164,19 +157,18 @@ class DepthOfField(Scene):
         from samplekit._builtin.scenes.depth_of_field_lens import lens_means
 
         means = np.empty(points.shape[1])
-        lens_means(points, FRONT, RING, WALL, self.confusion, means)
+        lens_means(points, self.confusion, means)
         return means
 
-    def _edges(self, sharp: float) -> Curves:
-        """Return the curves where layers begin and end to show, if their circles of confusion are below ``sharp``."""
-        from samplekit.quadrature import Curves
+    def _edges(self, sharp: float) -> tuple[Array, Array]:
+        """Return the circles float64[K, 3] and the lines float64[L, 3] along which layers begin and end to show.
 
+        Layers whose circles of confusion are not below ``sharp`` have none.
+        """
         reach = np.abs(self.confusion)
-        edges = [(*disk[:3], reach[0]) for disk in FRONT] + [(*RING[:2], radius, reach[1]) for radius in RING[2:4]]
+        edges = [(*circle[:3], reach[0 if k < INNER else 1]) for k, circle in enumerate(CIRCLES)]
         circles = {(cx, cy, abs(r + side * c)) for cx, cy, r, c in edges if c < sharp for side in (-1, 1)}
         places = WALL[0] + WALL[1] * np.arange(WALL[2] + 1)
         lines = {place + side * reach[2] for place in places if reach[2] < sharp for side in (-1, 1)}
-        return Curves(
-            np.array(sorted(circles)).reshape(-1, 3),
-            np.array([(*axis, place) for place in sorted(lines) for axis in ((1.0, 0.0), (0.0, 1.0))]).reshape(-1, 3),
-        )
+        both_ways = [(*axis, place) for place in sorted(lines) for axis in ((1.0, 0.0), (0.0, 1.0))]
+        return np.array(sorted(circles)).reshape(-1, 3), np.array(both_ways).reshape(-1, 3)

@@ -10,79 +10,58 @@ curves compute their crossing at places an ulp apart, it changes by an ulp.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
+from samplekit._builtin.scenes.depth_of_field import CIRCLES, FRONT, INNER, RING, WALL
 from samplekit.kernels import helper, kernel
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+Array = NDArray[np.float64]
 
-    Array = NDArray[np.float64]
-
-_LAYERS = "float64[:,::1], float64[::1], float64[::1], float64[::1]"
 _SHARP = 1e-12  # Smaller circles of confusion are left out: they change the mean over a pixel by less than 1e-9.
-_FRONTS, _INNER, _OUTER, _LENS = 0, -1, -2, -3
+_LENS = CIRCLES.shape[0]
+"""The number of the lens's own outline, after those of the circles."""
+_LINES = int(WALL[2]) + 1
 
 
 @helper
-def _wall_value(column: float, row: float, wall: Array) -> float:
-    if column < 0.0 or row < 0.0 or column >= wall[2] or row >= wall[2]:
-        return float(wall[5])
+def _wall_value(column: float, row: float) -> float:
+    if column < 0.0 or row < 0.0 or column >= WALL[2] or row >= WALL[2]:
+        return float(WALL[5])
     half = 0.5 * (column + row)
-    return float(wall[3] if half == np.floor(half) else wall[4])
+    return float(WALL[3] if half == np.floor(half) else WALL[4])
 
 
-@kernel(f"float64(float64, float64, float64, float64, {_LAYERS}, int64)")
-def _seen(
-    lens_x: float,
-    lens_y: float,
-    x: float,
-    y: float,
-    front: Array,
-    ring: Array,
-    wall: Array,
-    confusion: Array,
-    nearest: int,
-) -> float:
+@helper
+def _disk_in_front(u: float, v: float, x: float, y: float, confusion: Array) -> int:
+    """Return the number of the disk that the lens point (u, v) sees at (x, y), -1 if it sees none."""
+    for k in range(INNER):
+        dx, dy = x + confusion[0] * u - FRONT[k, 0], y + confusion[0] * v - FRONT[k, 1]
+        if dx * dx + dy * dy < FRONT[k, 2] * FRONT[k, 2]:
+            return k
+    return -1
+
+
+@helper
+def _is_on_ring(u: float, v: float, x: float, y: float, confusion: Array) -> bool:
+    """Return whether the lens point (u, v) would see the ring at (x, y) if there were no disks."""
+    dx, dy = x + confusion[1] * u - RING[0], y + confusion[1] * v - RING[1]
+    return bool(RING[2] * RING[2] <= dx * dx + dy * dy < RING[3] * RING[3])
+
+
+@kernel("float64(float64, float64, float64, float64, float64[::1], int64)")
+def _seen(u: float, v: float, x: float, y: float, confusion: Array, nearest: int) -> float:
     """Return the value seen through a lens point without the first ``nearest`` of the layers disks, ring and wall."""
     if nearest == 0:
-        for k in range(front.shape[0]):
-            dx, dy = x + confusion[0] * lens_x - front[k, 0], y + confusion[0] * lens_y - front[k, 1]
-            if dx * dx + dy * dy < front[k, 2] * front[k, 2]:
-                return float(front[k, 3])
-    if nearest <= 1:
-        dx, dy = x + confusion[1] * lens_x - ring[0], y + confusion[1] * lens_y - ring[1]
-        squared = dx * dx + dy * dy
-        if ring[2] * ring[2] <= squared < ring[3] * ring[3]:
-            return float(ring[4])
-    column = np.floor((x + confusion[2] * lens_x - wall[0]) / wall[1])
-    row = np.floor((y + confusion[2] * lens_y - wall[0]) / wall[1])
-    return _wall_value(column, row, wall)
-
-
-@kernel(f"boolean(float64, float64, float64, float64, {_LAYERS}, boolean)")
-def _hidden(
-    lens_x: float,
-    lens_y: float,
-    x: float,
-    y: float,
-    front: Array,
-    ring: Array,
-    wall: Array,
-    confusion: Array,
-    by_ring: bool,
-) -> bool:
-    """Return whether a disk in front, or with ``by_ring`` the ring, hides what lies behind a lens point."""
-    for k in range(front.shape[0]):
-        dx, dy = x + confusion[0] * lens_x - front[k, 0], y + confusion[0] * lens_y - front[k, 1]
-        if dx * dx + dy * dy < front[k, 2] * front[k, 2]:
-            return True
-    if by_ring:
-        dx, dy = x + confusion[1] * lens_x - ring[0], y + confusion[1] * lens_y - ring[1]
-        return bool(ring[2] * ring[2] <= dx * dx + dy * dy < ring[3] * ring[3])
-    return False
+        disk = _disk_in_front(u, v, x, y, confusion)
+        if disk >= 0:
+            return float(FRONT[disk, 3])
+    if nearest <= 1 and _is_on_ring(u, v, x, y, confusion):
+        return float(RING[4])
+    column = np.floor((x + confusion[2] * u - WALL[0]) / WALL[1])
+    row = np.floor((y + confusion[2] * v - WALL[0]) / WALL[1])
+    return _wall_value(column, row)
 
 
 @helper
@@ -147,44 +126,30 @@ def _arc_area(rho: float, angle: float) -> float:
     return (rho * angle) * (rho * angle) * angle / 12.0 * series
 
 
-@kernel(f"float64(float64, float64, {_LAYERS}, float64[:,::1], float64[:,::1], int64[::1], float64[::1])")
+@kernel("float64(float64, float64, float64[::1], float64[:,::1], float64[:,::1], int64[::1], float64[::1])")
 def _mean(
-    x: float,
-    y: float,
-    front: Array,
-    ring: Array,
-    wall: Array,
-    confusion: Array,
-    circles: Array,
-    lines: Array,
-    line_counts: NDArray[np.int64],
-    cuts: Array,
+    x: float, y: float, confusion: Array, circles: Array, lines: Array, line_counts: NDArray[np.int64], cuts: Array
 ) -> float:
     """Return the mean over the lens at (x, y); the arrays after ``confusion`` are workspace."""
     count = 0
-    for k in range(front.shape[0] + 2):
-        if k < front.shape[0]:
-            cx, cy, radius, c, kind = front[k, 0] - x, front[k, 1] - y, front[k, 2], confusion[0], _FRONTS + k
-        else:
-            inner = k == front.shape[0]
-            cx, cy, radius, c = ring[0] - x, ring[1] - y, ring[2] if inner else ring[3], confusion[1]
-            kind = _INNER if inner else _OUTER
+    for k in range(CIRCLES.shape[0]):
+        cx, cy, radius, c = CIRCLES[k, 0] - x, CIRCLES[k, 1] - y, CIRCLES[k, 2], confusion[0 if k < INNER else 1]
         if _crosses_lens(cx, cy, radius, c):
             circles[count, 0], circles[count, 1] = cx / c, cy / c
-            circles[count, 2], circles[count, 3] = radius / abs(c), kind
+            circles[count, 2], circles[count, 3] = radius / abs(c), k
             count += 1
     c = confusion[2]
     for axis in range(2):
         line_counts[axis] = 0
         place = x if axis == 0 else y
-        for j in range(int(wall[2]) + 1):
-            offset = wall[0] + j * wall[1] - place
+        for j in range(_LINES):
+            offset = WALL[0] + j * WALL[1] - place
             if abs(offset) < abs(c) and abs(c) > _SHARP:
                 lines[axis, line_counts[axis]] = offset / c
                 lines[axis + 2, line_counts[axis]] = j
                 line_counts[axis] += 1
     if count + line_counts[0] + line_counts[1] == 0:
-        return _seen(0.0, 0.0, x, y, front, ring, wall, confusion, 0)
+        return _seen(0.0, 0.0, x, y, confusion, 0)
     circles[count, 0], circles[count, 1], circles[count, 2], circles[count, 3] = 0.0, 0.0, 1.0, _LENS
     count += 1
     total = 0.0
@@ -200,14 +165,14 @@ def _mean(
             if end <= start or (kind != _LENS and u * u + v * v > 1.0):
                 continue
             if kind == _LENS:
-                step = _seen(u, v, x, y, front, ring, wall, confusion, 0)
-            elif kind >= _FRONTS:
-                step = front[int(kind), 3] - _seen(u, v, x, y, front, ring, wall, confusion, 1)
-            elif _hidden(u, v, x, y, front, ring, wall, confusion, False):
+                step = _seen(u, v, x, y, confusion, 0)
+            elif kind < INNER:
+                step = FRONT[int(kind), 3] - _seen(u, v, x, y, confusion, 1)
+            elif _disk_in_front(u, v, x, y, confusion) >= 0:
                 continue
             else:
-                step = ring[4] - _seen(u, v, x, y, front, ring, wall, confusion, 2)
-                if kind == _INNER:
+                step = RING[4] - _seen(u, v, x, y, confusion, 2)
+                if kind == INNER:
                     step = -step
             u0, v0 = ax + rho * math.cos(start), ay + rho * math.sin(start)
             u1, v1 = ax + rho * math.cos(end), ay + rho * math.sin(end)
@@ -230,21 +195,22 @@ def _mean(
             for i in range(found - 1):
                 along = 0.5 * (cuts[i] + cuts[i + 1])
                 u, v = (place, along) if axis == 0 else (along, place)
-                if u * u + v * v > 1.0 or _hidden(u, v, x, y, front, ring, wall, confusion, True):
+                if u * u + v * v > 1.0 or _disk_in_front(u, v, x, y, confusion) >= 0:
                     continue
-                across = np.floor(((y if axis == 0 else x) + c * along - wall[0]) / wall[1])
+                if _is_on_ring(u, v, x, y, confusion):
+                    continue
+                across = np.floor(((y if axis == 0 else x) + c * along - WALL[0]) / WALL[1])
                 # At the line the cell j - 1 ends and the cell j begins; a negative c turns the picture around.
-                before = _wall_value(j - 1.0, across, wall)
-                step = before - _wall_value(j, across, wall)
+                before = _wall_value(j - 1.0, across)
+                step = before - _wall_value(j, across)
                 total += (step if c > 0.0 else -step) * 0.5 * place * (cuts[i + 1] - cuts[i])
     return total / math.pi
 
 
-@kernel(f"void(float64[:,::1], {_LAYERS}, float64[::1])")
-def lens_means(points: Array, front: Array, ring: Array, wall: Array, confusion: Array, out: Array) -> None:
+@kernel("void(float64[:,::1], float64[::1], float64[::1])")
+def lens_means(points: Array, confusion: Array, out: Array) -> None:
     """Write the mean over the lens at each of the points float64[2, M] of the picture, within 1e-12."""
-    most = 2 * (front.shape[0] + 3) + 4 * (int(wall[2]) + 1)
-    circles, lines = np.empty((front.shape[0] + 3, 4)), np.empty((4, int(wall[2]) + 1))
-    line_counts, cuts = np.zeros(2, np.int64), np.empty(most)
+    circles, lines = np.empty((_LENS + 1, 4)), np.empty((4, _LINES))
+    line_counts, cuts = np.zeros(2, np.int64), np.empty(2 * (_LENS + 1) + 4 * _LINES)
     for i in range(out.size):
-        out[i] = _mean(points[0, i], points[1, i], front, ring, wall, confusion, circles, lines, line_counts, cuts)
+        out[i] = _mean(points[0, i], points[1, i], confusion, circles, lines, line_counts, cuts)

@@ -15,22 +15,19 @@ cancels. It is evaluated in double-double arithmetic, and where that is not enou
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit import Scene, UsageError
 from samplekit._builtin.scenes.sample_bounds import sample_bounds, square_bounds
 from samplekit.kernels import expansion_sum, helper, kernel, two_difference, two_product, two_sum
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
-    Pair = tuple[float, float]
-    """A double-double."""
-    Part = tuple[Pair, Pair, float]
-    """Start, end and length of an interval."""
+Array = NDArray[np.float64]
+Pair = tuple[float, float]
+"""A double-double."""
+Part = tuple[Pair, Pair, float]
+"""Start, end and length of an interval."""
 
 SMALLEST = 1e-150
 """Smallest radius but 0: its square does not underflow."""

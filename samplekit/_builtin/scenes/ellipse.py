@@ -5,18 +5,14 @@ The reference is in :mod:`samplekit._builtin.scenes.ellipse_means`.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit import Scene
 from samplekit._builtin.scenes.sample_bounds import product_bounds, sample_bounds, square_bounds
 from samplekit.kernels import direction, kernel
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 
 @kernel("void(float64[:,:,::1], float64[:,::1], float64[::1], float64[::1])")
@@ -55,12 +51,7 @@ class Ellipse(Scene):
     """
 
     def __init__(
-        self,
-        radius: float = 0.3,
-        aspect: float = 0.1,
-        angle: float = 30.0,
-        cx: float = 0.4523,
-        cy: float = 0.5317,
+        self, radius: float = 0.3, aspect: float = 0.1, angle: float = 30.0, cx: float = 0.4523, cy: float = 0.5317
     ) -> None:
         self.cx, self.cy = float(cx), float(cy)
         self.cosine, self.sine = direction(angle)

@@ -12,19 +12,16 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit.kernels import dd_add, dd_multiply, helper, kernel, quick_two_sum, two_difference, two_product
 from samplekit.quadrature import NODES, WEIGHTS
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
-    Pair = tuple[float, float]
-    """A double-double."""
+Array = NDArray[np.float64]
+Pair = tuple[float, float]
+"""A double-double."""
 
 _NEAR_THE_END = 0.25
 """The substitution is made where a piece is nearer to the ellipse's end than this part of its own length."""

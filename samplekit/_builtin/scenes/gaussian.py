@@ -9,18 +9,16 @@ The exact mean over a box is the product of two means of exp(-u^2), with u in un
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit import Scene
+from samplekit._builtin.scenes.sample_bounds import square_bounds
 from samplekit.kernels import BLOCK, dd_add, dd_multiply, exp_of_minus, fma, helper, kernel, lane_sum, two_difference
 from samplekit.quadrature import NODES, WEIGHTS
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 _SQRT_HALF = 0.7071067811865476
 _SQRT_HALF_LOW = -4.833646656726457e-17
@@ -63,22 +61,14 @@ class Gaussian(Scene):
 
         Rounding keeps order: the kernel's coordinates of samples lie between those of the edges, computed alike.
         """
-        x_nearest, x_farthest = _distances(x_edges, self.cx, self._sampled_scale)
-        y_nearest, y_farthest = _distances(y_edges, self.cy, self._sampled_scale)
-        least = np.add.outer(y_nearest**2, x_nearest**2)
-        most = np.add.outer(y_farthest**2, x_farthest**2)
+        near_x, far_x = _squares(x_edges, self.cx, self._sampled_scale)
+        near_y, far_y = _squares(y_edges, self.cy, self._sampled_scale)
+        least, most = near_y[:, None] + near_x, far_y[:, None] + far_x
         return np.where(least > _ALWAYS_0, 0.0, np.where(most < _ALWAYS_1, 1.0, np.nan))
 
 
 @kernel("void(float64[:,:,::1], float64[:,::1], float64, float64, float64, float64[::1])")
-def _sums(
-    tile: Array,
-    boxes: Array,
-    scale: float,
-    cx: float,
-    cy: float,
-    out: Array,
-) -> None:
+def _sums(tile: Array, boxes: Array, scale: float, cx: float, cy: float, out: Array) -> None:
     pixels, _, count = tile.shape
     values = np.empty(BLOCK)
     for pixel in range(pixels):
@@ -91,11 +81,10 @@ def _sums(
         out[pixel] = lane_sum(values, count)
 
 
-def _distances(edges: Array, centre: float, scale: float) -> tuple[Array, Array]:
-    """Bound the scaled distance of samples from the centre, as the kernel computes it: least, most, float64[m] each."""
+def _squares(edges: Array, centre: float, scale: float) -> tuple[Array, Array]:
+    """Bound the squares of samples' scaled distances from the centre, as the kernel computes them: float64[m] each."""
     left = (edges[:-1] - centre) * scale
-    right = left + np.diff(edges) * scale
-    return np.maximum(np.maximum(left, -right), 0.0), np.maximum(np.abs(left), np.abs(right))
+    return square_bounds(left, left + np.diff(edges) * scale)
 
 
 def _inverse(sigma: float, largest: float) -> tuple[float, float]:
@@ -148,14 +137,7 @@ def _gaussian(offset: float, low: float) -> float:
 
 
 @kernel("void(float64[::1], float64, float64, float64, float64[::1], float64[::1])")
-def _heights(
-    edges: Array,
-    centre: float,
-    scale: float,
-    scale_low: float,
-    ends: Array,
-    heights: Array,
-) -> None:
+def _heights(edges: Array, centre: float, scale: float, scale_low: float, ends: Array, heights: Array) -> None:
     for i in range(edges.size):
         offset, low = _offset(edges[i], centre, scale, scale_low)
         ends[i] = min(max(offset, -_FAR), _FAR)

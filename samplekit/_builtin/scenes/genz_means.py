@@ -13,10 +13,11 @@ trapezoidal rule", SIAM Review 56).
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
+from samplekit._builtin.declarations.scenes import GENZ_FAMILIES
 from samplekit._builtin.scenes.gaussian import gaussian_means
 from samplekit.kernels import (
     cosine_of_turns,
@@ -30,20 +31,18 @@ from samplekit.kernels import (
     two_sum,
 )
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+Array = NDArray[np.float64]
+Sides = tuple[Array, Array]
+"""Left and right ends of neighbouring intervals, float64[n] each; for points both are the same array."""
 
-    Array = NDArray[np.float64]
-    Sides = tuple[Array, Array]
-    """Left and right ends of neighbouring intervals, float64[n] each; for points both are the same array."""
-
+_WHOLE = np.zeros(1), np.ones(1)
+"""The one interval [0, 1], as the sides that functions here take."""
 _STEP = 0.125
 _LOGS = np.arange(-72.0, 5.0, _STEP)
 """Logarithms of s: below them s^d is negligible, above them exp(-s)."""
-_PI = 3.141592653589793
-_PI_LOW = 1.2246467991473532e-16
+_TAU_LOW = 2.4492935982947064e-16  # what 2 pi is beyond math.tau
 
-_KERNELS = {"product-peak": 1, "gaussian": 3, "continuous": 4, "discontinuous": 5}
+_, _PRODUCT_PEAK, _, _GAUSSIAN, _CONTINUOUS, _ = range(len(GENZ_FAMILIES))
 
 
 def genz_means(family: str, a: Array, u: float, x: Sides, y: Sides) -> Array:
@@ -61,19 +60,18 @@ def genz_means(family: str, a: Array, u: float, x: Sides, y: Sides) -> Array:
         return _waves(a, u, x, y)
     if family == "corner-peak":
         return _corner_peaks(a, x, y)
-    code = _KERNELS[family]
+    code = GENZ_FAMILIES.index(family)
     columns = _along(code, a[0], u, x)
     rows = _along(code, a[1], u, y) if a.size > 1 else np.ones(y[0].size)
     rest = 1.0
-    whole = np.zeros(1), np.ones(1)
     for coefficient in a[2:]:
-        rest *= float(_along(code, coefficient, 1.0 if family == "discontinuous" else u, whole)[0])
+        rest *= float(_along(code, coefficient, 1.0 if family == "discontinuous" else u, _WHOLE)[0])
     return np.multiply.outer(rows, columns) * rest
 
 
 def _along(code: int, a: float, u: float, sides: Sides) -> Array:
     """Average the factor of one dimension over intervals: float64[n]."""
-    if code == _KERNELS["gaussian"]:
+    if code == _GAUSSIAN:
         left, right = sides
         if left is right:
             values: Array = np.exp(-np.square(a * (left - u)))
@@ -98,12 +96,12 @@ def _decay(a: float, before: float, after: float, width: float) -> float:
 def _factor_means(code: int, a: float, u: float, left: Array, right: Array, out: Array) -> None:
     for i in range(out.size):
         width = right[i] - left[i]
-        if code == 1:
+        if code == _PRODUCT_PEAK:
             first, last = a * (left[i] - u), a * (right[i] - u)
             # One angle in place of the difference of two arctangents.
             angle = math.atan2(a * width, 1.0 + first * last)
             out[i] = angle / (a * width) if a * width > 0.0 else 1.0 / (1.0 + first * first)
-        elif code == 4:
+        elif code == _CONTINUOUS:
             if left[i] >= u:
                 out[i] = _decay(a, u, left[i], width)
             elif right[i] <= u:
@@ -130,32 +128,30 @@ def _wave_means(a: float, left: Array, right: Array, turns: Array, lengths: Arra
         half, half_low = dd_scale(0.5 * width, 0.5 * width_low, a)
         # sin(2 pi t) = cos(2 pi (t - 1/4)): a whole number of turns is taken off first, exactly.
         rest = (half - np.rint(half)) + (half_low - np.rint(half_low))
-        angle, angle_low = dd_multiply(half, half_low, 2.0 * _PI, 2.0 * _PI_LOW)
+        angle, angle_low = dd_multiply(half, half_low, math.tau, _TAU_LOW)
         angle = dd_add(angle, angle_low, 0.0, 0.0)[0]
-        lengths[i] = math.sin(2.0 * _PI * rest) / angle if angle > 0.0 else 1.0
+        lengths[i] = math.sin(math.tau * rest) / angle if angle > 0.0 else 1.0
 
 
 def _waves(a: Array, u: float, x: Sides, y: Sides) -> Array:
     """Average the oscillatory family: the real part of a product of waves."""
-    whole = np.zeros(1), np.ones(1)
+    columns, column_factors = _wave(a[0], x)
+    rows, row_factors = _wave(a[1] if a.size > 1 else 0.0, y)
     phase, factor = 0.0, 1.0
-    phases, factors = [], []
-    for k, coefficient in enumerate(a):
-        sides = (x, y)[k] if k < 2 else whole
-        turns, lengths = np.empty(sides[0].size), np.empty(sides[0].size)
-        _wave_means(coefficient, *sides, turns, lengths)
-        if k < 2:
-            phases.append(turns)
-            factors.append(lengths)
-        else:
-            phase, factor = math.remainder(phase + turns[0], 1.0), factor * lengths[0]
-    if a.size == 1:
-        phases.append(np.zeros(y[0].size))
-        factors.append(np.ones(y[0].size))
-    out = np.empty((y[0].size, x[0].size))
-    _wave_image(phases[0], phases[1], math.remainder(phase + u, 1.0), out)
-    image: Array = out * np.multiply.outer(factors[1] * factor, factors[0])
+    for coefficient in a[2:]:
+        turns, lengths = _wave(coefficient, _WHOLE)
+        phase, factor = math.remainder(phase + turns[0], 1.0), factor * lengths[0]
+    out = np.empty((rows.size, columns.size))
+    _wave_image(columns, rows, math.remainder(phase + u, 1.0), out)
+    image: Array = out * np.multiply.outer(row_factors * factor, column_factors)
     return image
+
+
+def _wave(a: float, sides: Sides) -> tuple[Array, Array]:
+    """Return the phases in turns and the real factors of the means of exp(2 pi i a x) over intervals."""
+    turns, lengths = np.empty((2, sides[0].size))
+    _wave_means(a, *sides, turns, lengths)
+    return turns, lengths
 
 
 @kernel("void(float64[::1], float64[::1], float64, float64[:,::1])")
@@ -172,7 +168,7 @@ def _corner_peaks(a: Array, x: Sides, y: Sides) -> Array:
     for coefficient in a[2:]:
         weights *= _falling(s * coefficient)
     columns = _corner_factors(a[0], s, x)
-    rows = _corner_factors(a[1], s, y) if d > 1 else np.ones((y[0].size, s.size))
+    rows = _corner_factors(a[1] if d > 1 else 0.0, s, y)
     out = np.empty((y[0].size, x[0].size))
     _sum_of_products(np.ascontiguousarray(rows * weights), np.ascontiguousarray(columns), out)
     return out

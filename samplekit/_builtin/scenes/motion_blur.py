@@ -9,21 +9,14 @@ by that point times the radius of the circle of confusion, half the aperture.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit import Scene
 from samplekit.kernels import BLOCK, disk_point, fma, kernel, lane_sum
 
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from numpy.typing import NDArray
-
-    from samplekit.quadrature import Curves
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 # Each row: centre at half time, radius, value, speed along the direction.
 DISKS = np.array([[0.30, 0.70, 0.09, 0.875, 0.8], [0.55, 0.45, 0.11, 1.0, -0.5], [0.75, 0.25, 0.08, 0.75, 0.25]])
@@ -81,8 +74,8 @@ def _sums(
         out[pixel] = lane_sum(values, count)
 
 
-@kernel("void(float64[::1], float64[::1], float64[:,::1], float64[::1], float64, float64, float64[:,::1])")
-def _constant(x: Array, y: Array, disks: Array, board: Array, reach: float, shutter: float, out: Array) -> None:
+@kernel("void(float64[::1], float64[::1], float64, float64, float64[:,::1])")
+def _constant(x: Array, y: Array, reach: float, shutter: float, out: Array) -> None:
     """Write the value of constant pixels, NaN elsewhere, by bounds of their distance from each disk's path."""
     for j in range(out.shape[0]):
         for i in range(out.shape[1]):
@@ -90,23 +83,23 @@ def _constant(x: Array, y: Array, disks: Array, board: Array, reach: float, shut
             middle_x, middle_y = 0.5 * (x[i] + x[i + 1]), 0.5 * (y[j] + y[j + 1])
             around = 0.5 * math.hypot(x[i + 1] - x[i], y[j + 1] - y[j])
             shown = False
-            for k in range(disks.shape[0]):
-                half = 0.5 * shutter * abs(disks[k, 4])
-                dx, dy = middle_x - disks[k, 0], middle_y - disks[k, 1]
+            for k in range(DISKS.shape[0]):
+                half = 0.5 * shutter * abs(DISKS[k, 4])
+                dx, dy = middle_x - DISKS[k, 0], middle_y - DISKS[k, 1]
                 along = abs(dx * DIRECTION[0] + dy * DIRECTION[1])
                 across = dy * DIRECTION[0] - dx * DIRECTION[1]
                 slack = around + reach + _SLACK * (1.0 + reach + half)
-                if math.hypot(along + half, across) + slack < disks[k, 2]:
-                    out[j, i] = disks[k, 3]
-                shown |= math.hypot(max(0.0, along - half), across) - slack <= disks[k, 2]
+                if math.hypot(along + half, across) + slack < DISKS[k, 2]:
+                    out[j, i] = DISKS[k, 3]
+                shown |= math.hypot(max(0.0, along - half), across) - slack <= DISKS[k, 2]
             if shown:
                 continue
-            column = np.floor((x[i] - _SLACK - board[0]) / board[1])
-            row = np.floor((y[j] - _SLACK - board[0]) / board[1])
-            last_column = np.floor((x[i + 1] + _SLACK - board[0]) / board[1])
-            last_row = np.floor((y[j + 1] + _SLACK - board[0]) / board[1])
+            column = np.floor((x[i] - _SLACK - BOARD[0]) / BOARD[1])
+            row = np.floor((y[j] - _SLACK - BOARD[0]) / BOARD[1])
+            last_column = np.floor((x[i + 1] + _SLACK - BOARD[0]) / BOARD[1])
+            last_row = np.floor((y[j + 1] + _SLACK - BOARD[0]) / BOARD[1])
             if column == last_column and row == last_row:
-                out[j, i] = board[2] if 0.5 * (column + row) == np.floor(0.5 * (column + row)) else board[3]
+                out[j, i] = BOARD[2] if 0.5 * (column + row) == np.floor(0.5 * (column + row)) else BOARD[3]
 
 
 class MotionBlur(Scene):
@@ -126,7 +119,7 @@ class MotionBlur(Scene):
     def __init__(self, shutter: float = 0.5, aperture: float = 0.0) -> None:
         self.shutter, self.confusion = float(shutter), 0.5 * aperture * (1.0 / 0.5 - 1.0)
 
-    def dimensions(self) -> Mapping[str, int]:
+    def dimensions(self) -> dict[str, int]:
         """Return the dimensions of pixel, lens and time: no lens with the aperture 0, no time with the shutter 0."""
         return {"pixel": 2} | ({"lens": 2} if self.confusion else {}) | ({"time": 1} if self.shutter else {})
 
@@ -140,13 +133,13 @@ class MotionBlur(Scene):
         """Return the value of the pixels that always show one cell or one disk, from the whole lens; NaN elsewhere."""
         out = np.empty((y_edges.size - 1, x_edges.size - 1))
         x, y = np.ascontiguousarray(x_edges, np.float64), np.ascontiguousarray(y_edges, np.float64)
-        _constant(x, y, DISKS, BOARD, self.confusion, self.shutter, out)
+        _constant(x, y, self.confusion, self.shutter, out)
         return out
 
     def exact(self, x_edges: Array, y_edges: Array) -> Array:
         """Return the mean over pixel, lens and time: float64[h, w], within ``reference_error``."""
         from samplekit._builtin.scenes import motion_blur_means
-        from samplekit.quadrature import kept_means
+        from samplekit.quadrature import Curves, kept_means
 
         return kept_means(
             f"{self.shutter!r} {self.confusion!r}",
@@ -155,7 +148,7 @@ class MotionBlur(Scene):
             x_edges,
             y_edges,
             known=self.constant(x_edges, y_edges),
-            curves=self._edges(x_edges, y_edges),
+            curves=Curves(*self._edges(x_edges, y_edges)),
             largest=LARGEST_CELL,
         )
 
@@ -167,12 +160,15 @@ class MotionBlur(Scene):
         from samplekit._builtin.scenes.motion_blur_means import lens_and_time_means
 
         out = np.empty(points.shape[1])
-        lens_and_time_means(points, DISKS, np.array(DIRECTION), BOARD, self.confusion, self.shutter, out)
+        lens_and_time_means(points, self.confusion, self.shutter, out)
         return out
 
-    def _edges(self, x_edges: Array, y_edges: Array) -> Curves:
-        """Return the board's lines, and the curves along which disks begin and end to show unless these are blurred."""
-        from samplekit.quadrature import Curves, pixel_side
+    def _edges(self, x_edges: Array, y_edges: Array) -> tuple[Array, Array]:
+        """Return circles float64[K, 3] and lines float64[L, 3]: the board's, and where disks begin and end to show.
+
+        Disks that are blurred over many pixels have none.
+        """
+        from samplekit.quadrature import pixel_side
 
         circles, lines = set(), set()
         for axis, edges in enumerate((x_edges, y_edges)):
@@ -188,4 +184,4 @@ class MotionBlur(Scene):
                     circles.add((x + end * DIRECTION[0], y + end * DIRECTION[1], r))
                 if self.shutter:
                     lines |= {(-DIRECTION[1], DIRECTION[0], lane + side * r) for side in (-1, 1)}
-        return Curves(np.array(sorted(circles)).reshape(-1, 3), np.array(sorted(lines)).reshape(-1, 3))
+        return np.array(sorted(circles)).reshape(-1, 3), np.array(sorted(lines)).reshape(-1, 3)

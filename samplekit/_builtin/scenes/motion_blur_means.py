@@ -9,16 +9,14 @@ length of a chord.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
+from samplekit._builtin.scenes.motion_blur import BOARD, DIRECTION, DISKS
 from samplekit.kernels import helper, kernel
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 # 12 nodes are within 1e-7 here; the 24 of samplekit.quadrature take twice as long.
 _NODES, _WEIGHTS = (np.ascontiguousarray(part) for part in np.polynomial.legendre.leggauss(12))
@@ -91,20 +89,18 @@ def _shown(along: float, across: float, radius: float, reach: float, way: float)
     return total / way
 
 
-@kernel("void(float64[:,::1], float64[:,::1], float64[::1], float64[::1], float64, float64, float64[::1])")
-def lens_and_time_means(
-    points: Array, disks: Array, direction: Array, board: Array, reach: float, shutter: float, out: Array
-) -> None:
+@kernel("void(float64[:,::1], float64, float64, float64[::1])")
+def lens_and_time_means(points: Array, reach: float, shutter: float, out: Array) -> None:
     """Write the mean over lens and time at each of the points float64[2, M] of the picture."""
     for i in range(out.size):
         x, y = points[0, i], points[1, i]
-        half = 0.5 * (np.floor((x - board[0]) / board[1]) + np.floor((y - board[0]) / board[1]))
-        below = board[2] if half == np.floor(half) else board[3]
+        half = 0.5 * (np.floor((x - BOARD[0]) / BOARD[1]) + np.floor((y - BOARD[0]) / BOARD[1]))
+        below = BOARD[2] if half == np.floor(half) else BOARD[3]
         # The disks never hide each other: their shares of lens and time add up.
         value = below
-        for k in range(disks.shape[0]):
-            dx, dy = x - disks[k, 0], y - disks[k, 1]
-            along, across = dx * direction[0] + dy * direction[1], dy * direction[0] - dx * direction[1]
-            share = _shown(along, across, disks[k, 2], reach, shutter * abs(disks[k, 4]))
-            value += share * (disks[k, 3] - below)
+        for k in range(DISKS.shape[0]):
+            dx, dy = x - DISKS[k, 0], y - DISKS[k, 1]
+            along, across = dx * DIRECTION[0] + dy * DIRECTION[1], dy * DIRECTION[0] - dx * DIRECTION[1]
+            share = _shown(along, across, DISKS[k, 2], reach, shutter * abs(DISKS[k, 4]))
+            value += share * (DISKS[k, 3] - below)
         out[i] = value

@@ -7,20 +7,15 @@ summed, and no way of summing brings the lost digits back.
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 import samplekit
 from samplekit import Scene, UsageError
 from samplekit.kernels import row_sums
 
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 
 class Offset(Scene):
@@ -66,7 +61,7 @@ class Offset(Scene):
         """Sum the rounded values over each pixel's samples: see :meth:`Scene.sums`."""
         row_sums(self.scene.values(tile, boxes) + self.pedestal, out)
 
-    def parts(self, tile: Array, boxes: Array) -> Sequence[Array]:
+    def parts(self, tile: Array, boxes: Array) -> tuple[Array, Array]:
         """Return the scene's own values and the pedestal, whose sum is the value before it is rounded."""
         values = self.scene.values(tile, boxes)
         return values, np.full_like(values, self.pedestal)

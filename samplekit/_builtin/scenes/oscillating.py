@@ -18,18 +18,15 @@ they are not part of a pixel, a lens or a time. In one dimension the picture doe
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit import Scene
 from samplekit._builtin.declarations.scenes import GENZ_FAMILIES
 from samplekit.kernels import BLOCK, cosine_of_turns, exp_of_minus, fma, kernel, lane_sum
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 
 @kernel("void(float64[:,:,::1], float64[:,::1], int64, float64[::1], float64, float64[::1])")

@@ -7,17 +7,13 @@ sequences avoid the origin", SIAM Review 48, analyses such integrands.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit import Scene
 from samplekit.kernels import BLOCK, fma, kernel, lane_sum
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 
 @kernel("void(float64[:,:,::1], float64[:,::1], float64, float64[::1])")

@@ -5,15 +5,11 @@ Every operation of those kernels is monotone, rounded or not: the first and the 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
-    Bounds = tuple[Array, Array]
+Array = NDArray[np.float64]
+Bounds = tuple[Array, Array]
 
 
 def sample_bounds(edges: Array) -> Bounds:

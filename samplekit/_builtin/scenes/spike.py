@@ -7,18 +7,15 @@ has not converged.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit import Scene
 from samplekit._builtin.scenes.sample_bounds import sample_bounds
 from samplekit.kernels import BLOCK, kernel, lane_sum, two_difference
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    Array = NDArray[np.float64]
+Array = NDArray[np.float64]
 
 
 @kernel("void(float64[:,:,::1], float64[:,::1], float64[::1], float64, float64, float64[::1])")
@@ -68,12 +65,7 @@ class Spike(Scene):
     """
 
     def __init__(
-        self,
-        peak: float = 1e30,
-        background: float = 1e-30,
-        area: float = 1e-4,
-        cx: float = 0.4523,
-        cy: float = 0.5317,
+        self, peak: float = 1e30, background: float = 1e-30, area: float = 1e-4, cx: float = 0.4523, cy: float = 0.5317
     ) -> None:
         half = 0.5 * math.sqrt(area)
         self.square = np.array([cx - half, cx + half, cy - half, cy + half])

@@ -9,11 +9,12 @@ a Fresnel integral. An image needs w + h such factors, not w * h.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from samplekit import Scene
+from samplekit._builtin.scenes.sample_bounds import square_bounds
 from samplekit.kernels import (
     BLOCK,
     cosine_of_turns,
@@ -28,12 +29,8 @@ from samplekit.kernels import (
 )
 from samplekit.quadrature import NODES, WEIGHTS
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
+Array = NDArray[np.float64]
 
-    Array = NDArray[np.float64]
-
-_TAU = 6.283185307179586
 _TAU_LOW = 2.4492935982947064e-16
 _PER_TAU = 0.15915494309189535
 _PER_TAU_LOW = -9.839338337591243e-18
@@ -68,23 +65,14 @@ class ZonePlate(Scene):
 
     def constant(self, x_edges: Array, y_edges: Array) -> Array:
         """Return 1 where the phase is so small that its cosine rounds to 1, NaN elsewhere: float64[h, w]."""
-        x = np.abs(x_edges - self.cx)
-        y = np.abs(y_edges - self.cy)
-        x_farthest = np.maximum(x[:-1], x[1:])
-        y_farthest = np.maximum(y[:-1], y[1:])
-        turns = self.k * _PER_TAU * np.add.outer(y_farthest**2, x_farthest**2)
+        x, y = x_edges - self.cx, y_edges - self.cy
+        farthest = square_bounds(y[:-1], y[1:])[1][:, None] + square_bounds(x[:-1], x[1:])[1]
+        turns = self.k * _PER_TAU * farthest
         return np.where(turns < _MOST_TURNS_OF_ONE, 1.0, np.nan)
 
 
 @kernel("void(float64[:,:,::1], float64[:,::1], float64, float64, float64, float64[::1])")
-def _sums(
-    tile: Array,
-    boxes: Array,
-    turns: float,
-    cx: float,
-    cy: float,
-    out: Array,
-) -> None:
+def _sums(tile: Array, boxes: Array, turns: float, cx: float, cy: float, out: Array) -> None:
     pixels, _, count = tile.shape
     values = np.empty(BLOCK)
     for pixel in range(pixels):
@@ -131,19 +119,13 @@ def _phase(k: float, offset: float, low: float) -> complex:
     turns, turns_low = dd_scale(turns, turns_low, k)
     turns -= np.rint(turns)
     turns_low -= np.rint(turns_low)
-    angle, angle_low = dd_multiply(turns, turns_low, _TAU, _TAU_LOW)
+    angle, angle_low = dd_multiply(turns, turns_low, math.tau, _TAU_LOW)
     cosine, sine = math.cos(angle), math.sin(angle)
     return complex(cosine - angle_low * sine, sine + angle_low * cosine)
 
 
 @kernel("void(float64[::1], float64, float64, float64[::1], complex128[::1])")
-def _edge_phases(
-    edges: Array,
-    centre: float,
-    k: float,
-    offsets: Array,
-    phases: NDArray[np.complex128],
-) -> None:
+def _edge_phases(edges: Array, centre: float, k: float, offsets: Array, phases: NDArray[np.complex128]) -> None:
     for i in range(edges.size):
         offset, low = two_difference(edges[i], centre)
         offsets[i] = offset

@@ -11,7 +11,7 @@ import samplekit
 from samplekit import UsageError
 from samplekit._bases.scene import Scene
 from samplekit._builtin.scenes.depth_of_field import FRONT, RING, WALL, DepthOfField
-from samplekit.quadrature._pixel_means import pixel_means
+from samplekit.quadrature._pixel_means import Curves, pixel_means
 
 VARIANTS = [
     {},
@@ -98,7 +98,7 @@ def test_the_pixel_means_against_a_much_finer_rule(variant, size):
         edges,
         edges,
         known=known,
-        curves=scene._edges(math.inf),
+        curves=Curves(*scene._edges(math.inf)),
         largest=1 / 64,
         orders=(3, 5),
         tolerance=1e-7,

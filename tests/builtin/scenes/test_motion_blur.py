@@ -8,7 +8,7 @@ from scipy.integrate import quad
 import samplekit
 from samplekit import Scene, UsageError
 from samplekit._builtin.scenes.motion_blur import BOARD, DIRECTION, DISKS, MotionBlur
-from samplekit.quadrature._pixel_means import pixel_means
+from samplekit.quadrature._pixel_means import Curves, pixel_means
 
 VARIANTS = [
     {},
@@ -76,7 +76,13 @@ def test_the_moving_pixel_means_against_a_much_finer_rule(variant):
     chosen = np.random.default_rng(14).random(constant.shape) < 30 / max(30, np.isnan(constant).sum())
     known = np.where(chosen & np.isnan(constant), np.nan, 0.0)
     fine, _ = pixel_means(
-        scene._means, edges, edges, known=known, curves=scene._edges(edges, edges), largest=1 / 70, tolerance=1e-8
+        scene._means,
+        edges,
+        edges,
+        known=known,
+        curves=Curves(*scene._edges(edges, edges)),
+        largest=1 / 70,
+        tolerance=1e-8,
     )
     error = np.abs(scene.exact(edges, edges) - fine)[np.isnan(known)]
     assert error.max() <= scene.reference_error
