@@ -1,6 +1,6 @@
 """The suite finds the counts to judge near those that it would like; the rules are tested in tests/specs."""
 
-from samplekit._specs import AnyCount, Exactly, PowersOf, PrimePowers, Products, SamplerSpec
+from samplekit import AnyCount, Exactly, PowersOf, PrimePowers, Products, SamplerSpec
 from samplekit.testing import _declared as declared
 
 

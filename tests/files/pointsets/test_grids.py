@@ -1,6 +1,6 @@
 import pytest
 
-from samplekit._specs import GridStrata, LatinStrata, MinimumDistance, Net, OrthogonalArray
+from samplekit import GridStrata, LatinStrata, MinimumDistance, Net, OrthogonalArray
 from samplekit.files._pointsets.grids import Grid, describe_grids, grid_of
 
 
