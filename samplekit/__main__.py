@@ -2,7 +2,7 @@
 
 
 def main() -> None:
-    """Run the command line; an interrupt while it is still being imported is no traceback either."""
+    """Run the command line. An interrupt while it is still being imported ends it without a traceback as well."""
     try:
         from samplekit._cli import main as run
     except KeyboardInterrupt:

@@ -58,7 +58,7 @@ def redirect_plugin_output() -> Iterator[None]:
 
 
 class Boundary:
-    """Calls the code that one plugin offers.
+    """Calls the code that one plugin offers. The values that built-in code writes are not checked at run time.
 
     Parameters
     ----------
@@ -66,16 +66,11 @@ class Boundary:
         Kind and name of the thing that the plugin offers, such as ``"sampler toy:k=3"``.
     plugin
         The plugin.
-
-    Attributes
-    ----------
-    trusted
-        True for the code that comes with samplekit: the values that it writes are not checked at run time.
     """
 
     def __init__(self, what: str, plugin: Plugin) -> None:
         self._what, self._plugin = what, plugin
-        self.trusted = plugin.builtin
+        self._trusted = plugin.builtin
 
     def call(
         self, fault: str, function: Callable[[], T], valid: Callable[[T], bool] = lambda _: True, expected: str = ""
@@ -116,7 +111,7 @@ class Boundary:
 
     def fill(self, fault: str, out: NDArray[np.float64], function: Callable[[], None]) -> None:
         """Have the plugin write its numbers into ``out``; numbers that it does not write are NaN afterwards."""
-        if self.trusted:
+        if self._trusted:
             function()
             return
         out.fill(float("nan"))
@@ -124,7 +119,7 @@ class Boundary:
 
     def check_points(self, points: NDArray[np.float64]) -> None:
         """Raise unless the plugin wrote every point, inside [0, 1)."""
-        if self.trusted:
+        if self._trusted:
             return
         low, high = float(points.min()), float(points.max())
         if not (low >= 0.0 and high < 1.0):

@@ -16,17 +16,29 @@ MOST_SAMPLES = 2**48
 """Samples of one image: weeks of work; a larger request is a slip of the keyboard."""
 
 
+def as_integer(value: object) -> int | None:
+    """Return an integer of Python or NumPy as an int; None for everything else, True and False included."""
+    if isinstance(value, bool) or not isinstance(value, SupportsIndex):
+        return None
+    try:
+        return operator.index(value)
+    except TypeError:
+        # Arrays of NumPy have the method, and most of them refuse.
+        return None
+
+
 def check_positive(what: str, value: object) -> int:
-    """The value as an int.
+    """Return the value as an int.
 
     Raises
     ------
     UsageError
         It is not an integer of at least 1.
     """
-    if isinstance(value, bool) or not isinstance(value, SupportsIndex) or operator.index(value) < 1:
+    integer = as_integer(value)
+    if integer is None or integer < 1:
         raise UsageError(f"{what} {value}: expected a positive integer")
-    return operator.index(value)
+    return integer
 
 
 def check_samples(pixels: int, count: int, where: str) -> None:
@@ -44,7 +56,7 @@ def check_samples(pixels: int, count: int, where: str) -> None:
 
 
 def check_size(size: tuple[int, int]) -> tuple[int, int]:
-    """Width and height, as Python's integers.
+    """Return width and height as Python's integers.
 
     Raises
     ------
@@ -53,43 +65,36 @@ def check_size(size: tuple[int, int]) -> tuple[int, int]:
     """
     sides = _integers(size, 2)
     if sides is None or not all(1 <= side <= LARGEST_SIDE for side in sides):
-        raise UsageError(f"size {_shown(size)}: expected width and height from 1 to {LARGEST_SIDE}")
+        raise UsageError(f"size {_shown(size, 'x')}: expected width and height from 1 to {LARGEST_SIDE}")
     return sides[0], sides[1]
 
 
 def check_crop(crop: tuple[int, int, int, int], size: tuple[int, int]) -> tuple[int, int, int, int]:
-    """The crop as Python's integers, if it is a rectangle inside the image.
+    """Return the crop as Python's integers.
 
     Raises
     ------
     UsageError
-        It is empty or not inside, or not four integers.
+        It is not four integers, or not a rectangle inside the image of at least one pixel.
     """
-    numbers = _integers(crop, 4)
-    if numbers is None:
-        raise UsageError(
-            f"crop {quoted(crop)}: expected (x, y, width, height) inside the image of {size[0]}x{size[1]} pixels"
-        )
-    x, y, w, h = numbers
-    if min(x, y) < 0 or min(w, h) < 1 or x + w > size[0] or y + h > size[1]:
-        raise UsageError(
-            f"crop {x},{y},{w},{h}: expected a rectangle X,Y,W,H inside the image of {size[0]}x{size[1]} pixels"
-        )
-    return x, y, w, h
+    rectangle = _integers(crop, 4)
+    if rectangle is not None:
+        x, y, w, h = rectangle
+        if min(x, y) >= 0 and min(w, h) >= 1 and x + w <= size[0] and y + h <= size[1]:
+            return x, y, w, h
+    raise UsageError(
+        f"crop {_shown(crop, ',')}: expected a rectangle X,Y,W,H inside the image of {size[0]}x{size[1]} pixels"
+    )
 
 
 def _integers(values: object, number: int) -> tuple[int, ...] | None:
-    """So many integers, or None if they are not."""
-    if not isinstance(values, Iterable) or isinstance(values, (str, bytes)):
+    """Return so many integers; None if the values are anything else."""
+    if not isinstance(values, Iterable) or isinstance(values, bytes):
         return None
     listed = tuple(values)
-    if len(listed) != number or any(isinstance(v, bool) or not isinstance(v, SupportsIndex) for v in listed):
-        return None
-    try:
-        return tuple(operator.index(value) for value in listed)
-    except TypeError:
-        return None
+    integers = tuple(integer for value in listed if (integer := as_integer(value)) is not None)
+    return integers if len(integers) == len(listed) == number else None
 
 
-def _shown(values: object) -> str:
-    return "x".join(map(str, values)) if isinstance(values, (tuple, list)) else quoted(values)
+def _shown(values: object, separator: str) -> str:
+    return separator.join(map(str, values)) if isinstance(values, (tuple, list)) else quoted(values)

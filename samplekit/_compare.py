@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from samplekit._study.request import UNIT_SQUARE, ExecutionOptions, Request, checked_request
+from samplekit._study.request import UNIT_SQUARE, ExecutionOptions, checked_request
 from samplekit._study.resources import Resources
 from samplekit._study.study import Study
 
@@ -95,7 +96,18 @@ def compare(
     True
     """
     resources = Resources()
-    request = _request(resources, samplers, scenes, spp, trials, size, seed)
+    chosen = [resources.sampler(text) for text in _texts(samplers)]
+    if size == UNIT_SQUARE:
+        # Here the variance itself is studied: a sampler that reuses sets makes each of them afresh.
+        chosen = [sampler.fresh() for sampler in chosen]
+    request = checked_request(
+        [resources.scene(text).text for text in _texts(scenes)],
+        [sampler.text for sampler in chosen],
+        [spp] if isinstance(spp, int) else list(spp),
+        trials,
+        size,
+        seed,
+    )
     options = ExecutionOptions(threads, processes, dask, times, budget, cost, target, fit)
     folder = None if output is None else Path(output)
     with Study(request, options, resources, folder, resume=resume) as study:
@@ -108,10 +120,7 @@ def compare(
         if folder is not None:
             from samplekit._report.outputs import write_outputs
 
-            def written(done: int, total: int) -> None:
-                progress("writing images", done, total)
-
-            results = write_outputs(results, request, resources, folder, threads, written)
+            results = write_outputs(results, request, resources, folder, threads, partial(progress, "writing images"))
     if interrupted:
         raise InterruptedStudy(results)
     return results
@@ -137,27 +146,5 @@ class InterruptedStudy(KeyboardInterrupt):
         self.results = results
 
 
-def _request(
-    resources: Resources,
-    samplers: str | Sequence[str],
-    scenes: str | Sequence[str],
-    spp: int | Sequence[int],
-    trials: int,
-    size: tuple[int, int],
-    seed: int,
-) -> Request:
-    """Return the request with names as their declarations write them."""
-
-    def sampler_text(text: str) -> str:
-        # Over the unit square the variance itself is studied: a sampler that reuses sets makes each of them afresh.
-        sampler = resources.sampler(text)
-        return (sampler.fresh() if size == UNIT_SQUARE else sampler).text
-
-    return checked_request(
-        [resources.scene(text).text for text in ([scenes] if isinstance(scenes, str) else scenes)],
-        [sampler_text(text) for text in ([samplers] if isinstance(samplers, str) else samplers)],
-        [spp] if isinstance(spp, int) else list(spp),
-        trials,
-        size,
-        seed,
-    )
+def _texts(texts: str | Sequence[str]) -> list[str]:
+    return [texts] if isinstance(texts, str) else list(texts)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copyreg
 import difflib
 from typing import TYPE_CHECKING, Any
 
@@ -21,14 +22,7 @@ class SamplekitError(Exception):
 
     def __reduce__(self) -> tuple[Any, ...]:
         # Errors come back from other processes with all that they carry, whatever their constructors take.
-        return _restored, (type(self), self.args, vars(self))
-
-
-def _restored(kind: type[SamplekitError], args: tuple[Any, ...], attributes: dict[str, Any]) -> SamplekitError:
-    error = kind.__new__(kind)
-    error.args = args
-    vars(error).update(attributes)
-    return error
+        return copyreg.__newobj__, (type(self), *self.args), vars(self)  # type: ignore[attr-defined]
 
 
 class UsageError(SamplekitError):

@@ -1,4 +1,6 @@
-"""Discovery and lookup of what plugins offer. A plugin that fails is reported, and the others work on.
+"""Discovery, lookup and lists of what plugins offer. A plugin that fails is reported, and the others work on.
+
+What a plugin prints while it is loaded goes to standard error, so that results stand alone on standard output.
 
 The built-in samplers, scenes and randomizers come through the same hooks as those of any plugin. They are registered
 first: their names are found without loading any other plugin, and no plugin can take one of their names.
@@ -16,7 +18,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import pluggy
 
-from samplekit import _hooks
+from samplekit import __version__, _hooks
 from samplekit._errors import AmbiguousNameError, UnknownNameError
 from samplekit._quoting import quoted, reason
 from samplekit._specs import CommandOption, CommandSpec, RandomizerSpec, SamplerSpec, SceneSpec
@@ -31,7 +33,7 @@ GROUP = "samplekit"
 ALLOW_VARIABLE = "SAMPLEKIT_PLUGINS"
 BLOCK_VARIABLE = "SAMPLEKIT_BLOCK"
 
-_TYPES: dict[Kind, type] = {
+SPEC_TYPES: dict[Kind, type[Any]] = {
     "sampler": SamplerSpec,
     "randomizer": RandomizerSpec,
     "scene": SceneSpec,
@@ -95,11 +97,11 @@ class Registry:
 
         self._manager = pluggy.PluginManager(GROUP)
         self._manager.add_hookspecs(_hooks)
-        self._registered: dict[Kind, dict[str, list[Registration]]] = {kind: {} for kind in _TYPES}
+        self._registered: dict[Kind, dict[str, list[Registration]]] = {kind: {} for kind in SPEC_TYPES}
         self.plugins: list[Plugin] = []
         self._discovered = False
-        ours = Plugin(BUILTIN, "samplekit-core", _own_version())
-        self._add(ours, builtin)
+        self.plugins.append(Plugin(BUILTIN, "samplekit-core", __version__))
+        self._add(self.plugins[0], builtin)
 
     def find(self, kind: Kind, name: str) -> Registration:
         """Return the declaration called ``name``, or ``PLUGIN/NAME`` where two plugins offer the same name.
@@ -118,8 +120,7 @@ class Registry:
         if slash:
             found = [each for each in found if each.plugin.name == plugin_name]
         if not found:
-            known = [known for known, registrations in self._registered[kind].items() if registrations]
-            raise UnknownNameError(kind, name, known, self._plugin_hints())
+            raise UnknownNameError(kind, name, self._registered[kind], self._plugin_hints())
         if len(found) > 1:
             choices = [f"{each.plugin.name}/{plain}" for each in found]
             raise AmbiguousNameError(kind, plain, [str(each.plugin) for each in found], choices)
@@ -144,25 +145,25 @@ class Registry:
         found = sorted(entry_points(group=GROUP), key=lambda entry: (entry.name, _distribution(entry)))
         for entry in found:
             plugin = Plugin(entry.name, *_distribution(entry))
+            taken = any(other.name == entry.name for other in self.plugins)
+            self.plugins.append(plugin)
             if entry.name in blocked or (allowed is not None and entry.name not in allowed):
                 plugin.blocked = True
-                self.plugins.append(plugin)
-                continue
-            if any(other.name == entry.name for other in self.plugins):
+            elif taken:
                 plugin.problems.append(f"another plugin has the name {entry.name!r} already")
-                self.plugins.append(plugin)
-                continue
-            try:
-                with _redirect_output():
-                    module = entry.load()
-            except (Exception, SystemExit) as error:
-                plugin.problems.append(f"cannot be imported: {reason(error)}")
-                self.plugins.append(plugin)
-                continue
+            else:
+                self._load(plugin, entry)
+
+    def _load(self, plugin: Plugin, entry: EntryPoint) -> None:
+        try:
+            with contextlib.redirect_stdout(sys.stderr):
+                module = entry.load()
+        except (Exception, SystemExit) as error:
+            plugin.problems.append(f"cannot be imported: {reason(error)}")
+        else:
             self._add(plugin, module)
 
     def _add(self, plugin: Plugin, module: object) -> None:
-        self.plugins.append(plugin)
         try:
             self._manager.register(module, name=plugin.name)
         except (Exception, SystemExit) as error:
@@ -177,7 +178,7 @@ class Registry:
             plugin.problems.append(f"unknown hook {', '.join(unknown)}: the hooks are {known}")
         if not callers:
             plugin.problems.append("offers nothing: no function is marked with samplekit.hookimpl")
-        for kind in _TYPES:
+        for kind in SPEC_TYPES:
             caller = getattr(self._manager.hook, f"samplekit_{kind}s")
             for implementation in caller.get_hookimpls():
                 if implementation.plugin is module:
@@ -185,27 +186,23 @@ class Registry:
 
     def _collect(self, kind: Kind, plugin: Plugin, hook: Any) -> None:
         try:
-            with _redirect_output():
+            with contextlib.redirect_stdout(sys.stderr):
                 specs = list(hook())
         except (Exception, SystemExit) as error:
             plugin.problems.append(f"samplekit_{kind}s failed: {reason(error)}")
             return
         for spec in specs:
-            if not isinstance(spec, _TYPES[kind]):
-                plugin.problems.append(f"samplekit_{kind}s gave {quoted(spec)}, not a {_TYPES[kind].__name__}")
+            if not isinstance(spec, SPEC_TYPES[kind]):
+                plugin.problems.append(f"samplekit_{kind}s gave {quoted(spec)}, not a {SPEC_TYPES[kind].__name__}")
                 continue
-            self._accept(kind, plugin, spec)
-
-    def _accept(self, kind: Kind, plugin: Plugin, spec: Any) -> None:
-        present = self._registered[kind].setdefault(spec.name, [])
-        if any(other.plugin.builtin for other in present):
-            plugin.problems.append(f"{kind} {spec.name!r}: the name belongs to samplekit's own {kind}")
-            return
-        if any(other.plugin is plugin for other in present):
-            plugin.problems.append(f"{kind} {spec.name!r} is declared twice")
-            return
-        present.append(Registration(spec, plugin, spec.name))
-        plugin.offers.setdefault(kind, []).append(spec.name)
+            present = self._registered[kind].setdefault(spec.name, [])
+            if any(other.plugin.builtin for other in present):
+                plugin.problems.append(f"{kind} {spec.name!r}: the name belongs to samplekit's own {kind}")
+            elif any(other.plugin is plugin for other in present):
+                plugin.problems.append(f"{kind} {spec.name!r} is declared twice")
+            else:
+                present.append(Registration(spec, plugin, spec.name))
+                plugin.offers.setdefault(kind, []).append(spec.name)
 
     def _plugin_hints(self) -> str:
         """Name the plugins that might have offered what is missing, as the end of a message."""
@@ -221,19 +218,57 @@ class Registry:
 
 @functools.cache
 def registry() -> Registry:
-    """The registry of this process."""
+    """Return the registry of this process."""
     return Registry()
 
 
-def _redirect_output() -> contextlib.AbstractContextManager[object]:
-    """Send what a plugin prints to standard error, so that results stand alone on standard output."""
-    return contextlib.redirect_stdout(sys.stderr)
+def samplers() -> list[SamplerSpec]:
+    """Return the declarations of all samplers, sorted by name.
+
+    Examples
+    --------
+    >>> import samplekit
+    >>> [spec.name for spec in samplekit.samplers() if spec.progressive == samplekit.AnyCount()][:2]
+    ['halton', 'r2']
+    """
+    return [registration.spec for registration in registry().all("sampler").values()]
 
 
-def _own_version() -> str:
-    from samplekit import __version__
+def scenes() -> list[SceneSpec]:
+    """Return the declarations of all scenes, sorted by name.
 
-    return __version__
+    Examples
+    --------
+    >>> import samplekit
+    >>> [option.name for spec in samplekit.scenes() if spec.name == "zoneplate" for option in spec.options]
+    ['k', 'cx', 'cy', 'pixel-filter']
+    """
+    return [registration.spec for registration in registry().all("scene").values()]
+
+
+def randomizers() -> list[RandomizerSpec]:
+    """Return the declarations of all randomizers, sorted by name.
+
+    Examples
+    --------
+    >>> import samplekit
+    >>> [spec.name for spec in samplekit.randomizers()]
+    ['owen', 'shift', 'xor']
+    """
+    return [registration.spec for registration in registry().all("randomizer").values()]
+
+
+def plugins() -> list[Plugin]:
+    """Return all installed plugins, also those that failed, with their problems.
+
+    Examples
+    --------
+    >>> import samplekit
+    >>> "lattice" in [plugin.name for plugin in samplekit.plugins()]
+    True
+    """
+    registry().discover()
+    return registry().plugins
 
 
 def _distribution(entry: EntryPoint) -> tuple[str, str]:

@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import TYPE_CHECKING, TypeVar
 
+from samplekit._checks import as_integer
 from samplekit._errors import UsageError
 
 if TYPE_CHECKING:
@@ -57,9 +58,10 @@ def check_threads(threads: object) -> int:
     """
     if threads is None:
         return default_threads()
-    if isinstance(threads, bool) or not isinstance(threads, int) or not 1 <= threads <= MOST:
+    number = as_integer(threads)
+    if number is None or not 1 <= number <= MOST:
         raise UsageError(f"threads {threads}: expected an integer from 1 to {MOST}")
-    return threads
+    return number
 
 
 @contextmanager

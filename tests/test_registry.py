@@ -178,7 +178,7 @@ def test_a_plugin_name_chooses_among_our_names_no_other(plugins):
         ("raise ValueError('long ' * 10000)", "ValueError: long long"),
         ("def again(): again()\nagain()", "RecursionError"),
         ("raise MemoryError", "MemoryError"),
-        ("SamplerSpec('Bad Name', 'a:b', '')", "ValueError: bad name 'Bad Name'"),
+        ("SamplerSpec('Bad Name', 'a:b', '')", "ValueError: Bad Name: name must be of the form"),
     ],
 )
 def test_one_that_cannot_be_imported_says_why(plugins, code, reason):
@@ -204,8 +204,8 @@ def test_an_entry_point_that_names_nothing_is_a_problem(plugins, entry):
         ("return [None]", "gave None, not a SamplerSpec"),
         ("return [SamplerSpec]", "gave <class"),
         ("return [SceneSpec('toy', 'a:b', '')]", "gave SceneSpec(name='toy'"),
-        ("return [SamplerSpec('Toy', 'a:b', '')]", "failed: ValueError: bad name 'Toy'"),
-        ("return [SamplerSpec('toy', 'a', '')]", "failed: ValueError: toy: bad target 'a'"),
+        ("return [SamplerSpec('Toy', 'a:b', '')]", "failed: ValueError: Toy: name must be of the form [a-z]"),
+        ("return [SamplerSpec('toy', 'a', '')]", "failed: ValueError: toy: target must be of the form"),
         ("return [SamplerSpec('toy')]", "failed: TypeError"),
         (
             "return [SamplerSpec('toy', 'a:b', '', counts='few')]",

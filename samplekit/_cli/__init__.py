@@ -15,7 +15,7 @@ import typer
 from samplekit import __version__
 from samplekit._boundary import redirect_plugin_output
 from samplekit._builtin.declarations.commands import COMMANDS
-from samplekit._cli.command import Command
+from samplekit._cli.command import Command, TyperError, TyperUsageError
 from samplekit._cli.plugin_commands import PluginGroup
 from samplekit._errors import SamplekitError, UsageError
 from samplekit.commands import _interrupts as interrupts
@@ -24,10 +24,6 @@ from samplekit.commands._statuses import DONE, FAILED, INTERRUPTED, WRONG_USE
 _LONGEST_WORD, _LONGEST_MESSAGE = 300, 6000
 """Most letters that are shown: somebody may have pasted a file by mistake."""
 _STREAM_ERRORS = (errno.ENOSPC, errno.EIO, errno.EFBIG, errno.EBADF)
-
-# typer does not export the bases of its own exceptions, and they live in a private module.
-_TyperUsageError: type[Exception] = typer.BadParameter.__mro__[1]
-_TyperError: type[Exception] = typer.BadParameter.__mro__[2]
 
 app = typer.Typer(
     name="samplekit",
@@ -80,9 +76,9 @@ def run(arguments: list[str]) -> int:
         with interrupts.remembered(), redirect_plugin_output():
             result = app(args=arguments, prog_name="samplekit", standalone_mode=False)
         return result if isinstance(result, int) else DONE
-    except (UsageError, _TyperUsageError) as error:
+    except (UsageError, TyperUsageError) as error:
         return _failed(_message(error), WRONG_USE, arguments)
-    except (SamplekitError, _TyperError) as error:
+    except (SamplekitError, TyperError) as error:
         return _failed(_message(error), FAILED, arguments)
     except (KeyboardInterrupt, typer.Abort):
         return INTERRUPTED
@@ -107,8 +103,8 @@ def run(arguments: list[str]) -> int:
 
 
 def _abandon_stdout() -> None:
-    """Nothing more can be said on stdout, and Python must not try when it exits."""
-    # A stream within this process has no number, and nothing of it is lost at the end.
+    """Send what is still to be written on stdout nowhere, so that Python does not fail when it flushes it at exit."""
+    # A stream that has no file number is a buffer of this process, which cannot fail at exit.
     with contextlib.suppress(OSError, ValueError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
@@ -133,7 +129,7 @@ def _failed(message: str, status: int, arguments: list[str]) -> int:
             _abandon_stdout()
     # Without arguments the help has been shown, and there is nothing to add.
     if message:
-        # Where even standard error takes nothing, the status tells.
+        # Even standard error may take nothing: then the exit status has to be enough.
         with contextlib.suppress(OSError):
             print(f"samplekit: {message}", file=sys.stderr, flush=True)  # noqa: T201
     return status

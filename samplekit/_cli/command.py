@@ -14,6 +14,10 @@ from samplekit.commands import _plugin_options as plugin_options
 if TYPE_CHECKING:
     from samplekit._registry import Registration
 
+# typer does not export the bases of its own exceptions, and they live in a private module.
+TyperUsageError: type[Exception] = typer.BadParameter.__mro__[1]
+TyperError: type[Exception] = typer.BadParameter.__mro__[2]
+
 _PANELS = {
     "How it runs": "threads processes dask jobs resume no_time budget isolated time_limit memory_limit",
     "What comes out": "output directory json html explain ssim flip no_error scale",
@@ -41,11 +45,6 @@ class Command(TyperCommand):
         """Return all parameters, arranged for the help."""
         added = [_parameter(registration) for registration in self._added or ()]
         return arranged([*super().get_params(ctx), *added])
-
-    def get_help(self, ctx: Any) -> str:
-        """Return the help, with the options of plugins."""
-        self._add_options()
-        return super().get_help(ctx)
 
     def parse_args(self, ctx: Any, args: list[str]) -> Any:
         """Read the arguments; plugins are looked at only where an option is not the command's own."""

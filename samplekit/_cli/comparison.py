@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from samplekit._study.results import Fit, Interval, Results, Row
+from samplekit._study.results import Fit, Interval, Results, Row
+from samplekit._study.sentences import seconds_in_words
 
 
 def lines(results: Results) -> list[str]:
@@ -35,8 +33,6 @@ def left_out_lines(results: Results) -> list[str]:
 
 
 def _table(scene: str, rows: list[Row]) -> list[str]:
-    from samplekit._study.sentences import seconds_in_words
-
     width = max(len(row.sampler) for row in rows)
     found = [f"{scene:<{width}}  {'samples':>9}  {'mse':>9}  {'interval':<20}  {'time':>8}"]
     for row in rows:

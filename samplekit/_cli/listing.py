@@ -13,7 +13,7 @@ from samplekit.commands._options import JsonOption
 
 if TYPE_CHECKING:
     from samplekit._registry import Plugin
-    from samplekit._specs import Spec
+    from samplekit._specs.declaration import Declaration
 
 _KINDS = ("samplers", "scenes", "randomizers", "plugins")
 _WIDE = 100
@@ -25,9 +25,10 @@ def _complete_kind(incomplete: str) -> list[str]:
 
 
 def _complete_name(context: typer.Context, incomplete: str) -> list[tuple[str, str]]:
-    from samplekit.commands._completion import complete_named
+    from samplekit.commands._completion import complete_sampler, names
 
-    return complete_named(str(context.params.get("kind")), incomplete)
+    kind = str(context.params.get("kind"))
+    return complete_sampler(incomplete) if kind == "samplers" else names(kind.removesuffix("s"))
 
 
 def list_(
@@ -77,6 +78,7 @@ def _print_one(kind: str, name: str, json: bool) -> None:
     else:
         name, spec, plugin = sheet.choose(kind, name)
         record, rows = _record(name, spec, plugin), sheet.describe(spec, plugin)
+    rows = {heading: lines for heading, lines in rows.items() if any(lines)}
     if json:
         from json import dumps
 
@@ -88,15 +90,15 @@ def _print_one(kind: str, name: str, json: bool) -> None:
 
 
 def _records(kind: str) -> list[dict[str, Any]]:
-    from samplekit._registry import registry
+    from samplekit._registry import plugins, registry
 
     if kind == "plugins":
-        return [asdict(plugin) for plugin in _plugins()]
+        return [asdict(plugin) for plugin in plugins()]
     offers = registry().all(kind[:-1])  # type: ignore[arg-type]
     return [_record(name, offer.spec, offer.plugin) for name, offer in offers.items()]
 
 
-def _record(name: str, spec: Spec, plugin: Plugin) -> dict[str, Any]:
+def _record(name: str, spec: Declaration, plugin: Plugin) -> dict[str, Any]:
     from samplekit._cli import words
     from samplekit._specs import SamplerSpec
 
@@ -113,29 +115,22 @@ def _record(name: str, spec: Spec, plugin: Plugin) -> dict[str, Any]:
     return record
 
 
-def _plugins() -> list[Plugin]:
-    from samplekit._registry import registry
-
-    registry().discover()
-    return registry().plugins
-
-
 def _plugin(name: str) -> Plugin:
-    from samplekit._errors import UsageError
+    from samplekit._errors import UnknownNameError
+    from samplekit._registry import plugins
 
-    found = {plugin.name: plugin for plugin in _plugins()}
+    found = {plugin.name: plugin for plugin in plugins()}
     if name not in found:
-        raise UsageError(f"unknown plugin {name!r}: there are {', '.join(sorted(found))}")
+        raise UnknownNameError("plugin", name, found)
     return found[name]
 
 
 def _table(kind: str) -> tuple[list[str], list[list[str]]]:
-    from samplekit._registry import registry
+    from samplekit._registry import plugins, registry
 
     if kind == "plugins":
-        return ["plugin", "distribution", "version", "status"], [
-            [plugin.name, plugin.distribution, plugin.version, _status(plugin)] for plugin in _plugins()
-        ]
+        header = ["plugin", "distribution", "version", "status"]
+        return header, [[plugin.name, plugin.distribution, plugin.version, _status(plugin)] for plugin in plugins()]
     offers = registry().all(kind[:-1])  # type: ignore[arg-type]
     if kind == "samplers":
         header = ["sampler", "what it is", "dimensions", "points", "progressive", "random", "promises"]
@@ -158,7 +153,7 @@ def _sampler_row(name: str, spec: Any) -> list[str]:
     ]
 
 
-def _options(spec: Spec) -> str:
+def _options(spec: Declaration) -> str:
     return ", ".join(f"{option.name}={option.default}" for option in spec.options)
 
 
@@ -171,7 +166,7 @@ def _status(plugin: Plugin) -> str:
 
 
 def _compact_samplers(wide: bool) -> tuple[list[str], list[list[str]]]:
-    """The samplers for a terminal: a line or two each, and fewer columns where it is narrow."""
+    """Return the table of samplers for a terminal: short words, and fewer columns if the terminal is narrow."""
     from samplekit._cli import words
     from samplekit._registry import registry
 

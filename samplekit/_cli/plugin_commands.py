@@ -10,7 +10,7 @@ import typer
 from typer.core import TyperGroup
 
 from samplekit._boundary import Boundary
-from samplekit._cli.command import Command, arranged
+from samplekit._cli.command import Command, TyperError, arranged
 from samplekit._errors import SamplekitError, UnknownNameError, UsageError
 from samplekit._quoting import quoted, reason
 
@@ -20,18 +20,15 @@ if TYPE_CHECKING:
 OFFICIAL = {"spectrum": "samplekit-spectrum", "predict": "samplekit-spectrum"}
 """Commands of the official plugins by their distribution, so that the error for a missing one says where it is."""
 
-# typer does not export the base of its own exceptions, and it lives in a private module.
-_TyperError: type[Exception] = typer.BadParameter.__mro__[2]
-
 _CHOSEN = "samplekit.command-chosen"
 _LARGEST_STATUS = 255
 
 
 class PluginGroup(TyperGroup):
-    """The group of all commands: ours first, which nobody can replace, then those that plugins declare."""
+    """The group of all commands: first the built-in ones, which no plugin can replace, then those of plugins."""
 
     def get_params(self, ctx: Any) -> list[Any]:
-        """Its parameters, arranged for its help."""
+        """Return the parameters, arranged for the help."""
         return arranged(super().get_params(ctx))
 
     def resolve_command(self, ctx: Any, args: list[str]) -> Any:
@@ -40,14 +37,14 @@ class PluginGroup(TyperGroup):
         return super().resolve_command(ctx, args)
 
     def list_commands(self, ctx: Any) -> list[str]:
-        """Our commands in the order of their making, then plugins' commands, sorted."""
+        """Return the names of the built-in commands in their order, then those of plugins, sorted."""
         from samplekit._registry import registry
 
         own = super().list_commands(ctx)
         return [*own, *(name for name in registry().all("command") if name not in own)]
 
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
-        """Our command of that name, else the plugin's; unknown names get the nearest."""
+        """Return the built-in command of that name, or else a plugin's; an error names the nearest."""
         own = super().get_command(ctx, cmd_name)
         if own is not None:
             return own
@@ -57,14 +54,14 @@ class PluginGroup(TyperGroup):
             registration = registry().find("command", cmd_name)
         except UsageError as error:
             if ctx.resilient_parsing:
-                # Completion of what cannot be: there is nothing to complete.
+                # The shell asks for completions, and there are none.
                 return None
             if isinstance(error, UnknownNameError):
                 raise _unknown(error, super().list_commands(ctx)) from None
             raise
         if not ctx.meta.get(_CHOSEN):
             # Help needs the declaration alone.
-            return typer.main.get_command(_described(registration.name, registration.spec.summary))
+            return Command(registration.name, help=_plain(registration.spec.summary))
         try:
             return _made(registration)
         except SamplekitError:
@@ -74,7 +71,7 @@ class PluginGroup(TyperGroup):
 
 
 def _made(registration: Registration) -> Any:
-    """The command of a plugin, whose faults name it."""
+    """Return the command of a plugin. Its faults name the plugin."""
     boundary = Boundary(f"command {registration.name}", registration.plugin)
     run = boundary.call("cannot be set up", registration.spec.load, callable, "a function")
 
@@ -82,7 +79,7 @@ def _made(registration: Registration) -> Any:
     def guarded(*arguments: Any, **options: Any) -> Any:
         try:
             status = run(*arguments, **options)
-        except (SamplekitError, MemoryError, OSError, typer.Exit, typer.Abort, _TyperError):
+        except (SamplekitError, MemoryError, OSError, typer.Exit, typer.Abort, TyperError):
             raise
         except Exception as error:
             if os.environ.get("SAMPLEKIT_TRACEBACK"):
@@ -100,17 +97,8 @@ def _made(registration: Registration) -> Any:
 
 
 def _plain(summary: str) -> str:
-    """The summary with its brackets kept from being taken for markup."""
+    """Return the summary with its brackets escaped, which typer would take for markup."""
     return summary.replace("[", r"\[")
-
-
-def _described(name: str, summary: str) -> typer.Typer:
-    app = typer.Typer(add_completion=False)
-
-    @app.command(name, help=_plain(summary))
-    def _command() -> None: ...
-
-    return app
 
 
 def _unknown(error: UnknownNameError, own: list[str]) -> UsageError:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from samplekit.commands._completion import complete_scene
 from samplekit.commands._options import JsonOption, SamplerOption, SeedOption
+from samplekit.commands._statuses import DONE, FAILED
 
 if TYPE_CHECKING:
     from samplekit import Rendering
@@ -75,7 +77,7 @@ def render(
             ssim=ssim,
             flip=flip,
             output=output,
-            explain=_explain if explain else None,
+            explain=partial(typer.echo, err=True) if explain else None,
             progress=progress,
             preparing=preparing,
         )
@@ -89,11 +91,7 @@ def render(
             typer.echo(line)
     if no_error:
         _warn_of_an_old_error_picture(rendering)
-    return _report_invalid_pixels(rendering, json)
-
-
-def _explain(line: str) -> None:
-    typer.echo(line, err=True)
+    return _report_invalid_pixels(rendering)
 
 
 def _table(rendering: Rendering) -> list[str]:
@@ -112,20 +110,16 @@ def _warn_of_an_old_error_picture(rendering: Rendering) -> None:
         typer.echo(f"samplekit: {old} is of an earlier rendering: this one has no error (--no-error)", err=True)
 
 
-def _report_invalid_pixels(rendering: Rendering, json: bool) -> int:
-    """Return 1, with a line that says why, if pixels are not finite."""
+def _report_invalid_pixels(rendering: Rendering) -> int:
+    """Return the exit status; say how many pixels are not finite if there are any."""
     metrics, scene = rendering.metrics, rendering.plan.pixels.scene.text
     if not metrics.get("invalid_pixels"):
-        return 0
+        return DONE
     samples = metrics.get("invalid_samples", 0)
     what = f"{samples} samples of {scene} were not finite"
     if not samples:
         # The image is at fault, or else the reference: metrics count the pixels of both.
         what = f"the means of {scene}, or its reference, were not finite though all samples were"
     message = f"{what}, in {metrics['invalid_pixels']} pixels: shown in magenta"
-    if json:
-        typer.echo(f"samplekit: {message}", err=True)
-        return 1
-    from samplekit import SamplekitError
-
-    raise SamplekitError(message)
+    typer.echo(f"samplekit: {message}", err=True)
+    return FAILED

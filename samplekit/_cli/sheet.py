@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from samplekit._cli import words
+from samplekit._registry import Plugin, registry
 from samplekit._specs import RandomizerSpec, SamplerSpec, SceneSpec
-
-if TYPE_CHECKING:
-    from samplekit._registry import Plugin
-
-    Chosen = tuple[str, SamplerSpec | SceneSpec | RandomizerSpec, Plugin]
 
 Rows = dict[str, list[str]]
 
 
-def choose(kind: str, text: str) -> Chosen:
+def choose(kind: str, text: str) -> tuple[str, SamplerSpec | SceneSpec | RandomizerSpec, Plugin]:
     """Find a sampler, scene or randomizer by its text: its name, declaration and plugin.
 
     A plain name imports no implementation.
@@ -31,14 +25,12 @@ def choose(kind: str, text: str) -> Chosen:
 
         sampler = configured_sampler(text)
         return sampler.text, sampler.spec, sampler.plugin
-    from samplekit._registry import registry
-
     offer = registry().find(kind[:-1], text)  # type: ignore[arg-type]
     return text, offer.spec, offer.plugin
 
 
 def describe(spec: SamplerSpec | SceneSpec | RandomizerSpec, plugin: Plugin) -> Rows:
-    """All that a declaration says, in words: lines by their heading."""
+    """Return all that a declaration says in words: lines of text by their heading, some without lines."""
     rows: Rows = {"what it is": [spec.summary], "reference": [spec.reference], "plugin": [str(plugin)]}
     if isinstance(spec, SamplerSpec):
         rows |= _sampler(spec)
@@ -50,7 +42,7 @@ def describe(spec: SamplerSpec | SceneSpec | RandomizerSpec, plugin: Plugin) -> 
     rows["options"] = [
         f"{f'{option.name}={option.default}':<{width}}  {option.describe()}".rstrip() for option in spec.options
     ]
-    return {heading: lines for heading, lines in rows.items() if any(lines)}
+    return rows
 
 
 def _sampler(spec: SamplerSpec) -> Rows:
@@ -68,7 +60,9 @@ def _sampler(spec: SamplerSpec) -> Rows:
     if spec.randomized:
         rows["period"] = ["none" if spec.period is None else f"{spec.period} pixels"]
     if spec.screen_block is not None:
-        rows["screen"] = [words.screen(spec.screen_block)]
+        block = f"{spec.screen_block} x {spec.screen_block} pixels"
+        together = "its sets together keep every promise, and errors cancel when seen together"
+        rows["screen"] = [f"each aligned block of {block} shares one sequence: {together}"]
     if spec.fresh_options:
         given = ",".join(f"{name}={value}" for name, value in spec.fresh_options.items())
         rows["fresh sets"] = [f"{given}: every realisation is made afresh, none is used twice"]
@@ -76,18 +70,17 @@ def _sampler(spec: SamplerSpec) -> Rows:
 
 
 def describe_plugin(plugin: Plugin) -> Rows:
-    """A plugin: where it comes from, what it offers, what is wrong with it."""
+    """Return where a plugin comes from, what it offers and what is wrong with it: lines of text by their heading."""
     rows: Rows = {
         "distribution": [f"{plugin.distribution} {plugin.version}"],
         "status": ["switched off" if plugin.blocked else "problem" if plugin.problems else "loaded"],
         "problems": plugin.problems,
     }
-    rows |= {f"{kind}s": [", ".join(names)] for kind, names in plugin.offers.items()}
-    return {heading: lines for heading, lines in rows.items() if any(lines)}
+    return rows | {f"{kind}s": [", ".join(names)] for kind, names in plugin.offers.items()}
 
 
 def lines(title: str, rows: Rows) -> list[str]:
-    """The rows under their title as text: headings on the left, what they have on the right."""
+    """Return the lines that show the rows under a title: headings on the left, their text on the right."""
     width = max(len(heading) for heading in rows)
     written = [title]
     for heading, texts in rows.items():

@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import islice
-from typing import TYPE_CHECKING
 
-from samplekit._specs import AnyCount
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from samplekit._specs import Promise, SamplerSpec
+from samplekit._specs import AnyCount, Promise, SamplerSpec
 
 _EXAMPLES = 8
 
@@ -59,14 +54,6 @@ def progressive_word(spec: SamplerSpec) -> str:
     if spec.progressive is None:
         return "no"
     return "every-count" if spec.progressive == AnyCount() else str(spec.progressive)
-
-
-def screen(side: int) -> str:
-    """State how the sets of neighbouring pixels belong together."""
-    return (
-        f"each aligned block of {side} x {side} pixels shares one sequence: its sets together keep every promise, and"
-        " errors cancel when seen together"
-    )
 
 
 def short_promises(promises: Sequence[Promise]) -> str:

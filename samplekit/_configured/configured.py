@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from samplekit._boundary import Boundary
-from samplekit._registry import Plugin, Registration
+from samplekit._choices import parse_choice
+from samplekit._errors import UsageError
+from samplekit._registry import SPEC_TYPES, Plugin, Registration, registry
 from samplekit._specs import written
 
 if TYPE_CHECKING:
@@ -29,10 +31,8 @@ class Configured:
         The plugin that offers the implementation.
     """
 
-    text: str
     spec: Any
     options: dict[str, OptionValue]
-    plugin: Plugin
 
     def __init__(self, kind: str, registration: Registration, options: Mapping[str, object]) -> None:
         self.plugin, self.spec = registration.plugin, registration.spec
@@ -51,16 +51,31 @@ class Configured:
         return self._boundary.call("cannot be set up", lambda: implementation(**keywords), valid, expected)
 
 
-def not_installed(spec: Any) -> Registration:
-    """Register a declaration that no installed plugin offers."""
-    return Registration(spec, Plugin("not-installed", "none", "0"), spec.name)
+def find_choice(
+    kind: Literal["sampler", "scene"], choice: Any, keywords: Mapping[str, object]
+) -> tuple[Registration, dict[str, object], str | None]:
+    """Find what a text chooses, or register a declaration that no installed plugin offers.
 
+    Parameters
+    ----------
+    kind, choice
+        What is chosen: a text as on the command line, or a declaration of that kind.
+    keywords
+        More options, as Python keywords: a dash in the name of an option is an underscore here.
 
-def option_names(keywords: Mapping[str, object]) -> dict[str, object]:
-    """Return options that were given as Python keywords under the names of the command line."""
-    return {name.replace("_", "-"): value for name, value in keywords.items()}
+    Returns
+    -------
+    The registration, the options that were given, and the name of the randomizer if there is one.
 
-
-def are_texts(notes: Any) -> bool:
-    """Tell whether ``notes`` is a list of strings."""
-    return isinstance(notes, (list, tuple)) and all(isinstance(note, str) for note in notes)
+    Raises
+    ------
+    UsageError
+        The text is wrong or names nothing, or the choice is neither a text nor a declaration.
+    """
+    given = {name.replace("_", "-"): value for name, value in keywords.items()}
+    if isinstance(choice, str):
+        parsed = parse_choice(choice, kind)
+        return registry().find(kind, parsed.name), {**parsed.options, **given}, parsed.randomizer
+    if not isinstance(choice, SPEC_TYPES[kind]):
+        raise UsageError(f"{kind} {choice!r}: expected a text, or a declaration with options")
+    return Registration(choice, Plugin("not-installed", "none", "0"), choice.name), given, None

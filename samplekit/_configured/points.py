@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shlex
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -67,47 +68,38 @@ def points(
     [[0.0, 0.0], [0.25, 0.5], [0.5, 0.25], [0.75, 0.75]]
     """
     path = None if output is None else Path(output)
-    if path is not None:
-        _check_output(path, realizations, dims)
+    is_picture = path is not None and _check_output(path, realizations, dims)
     source = configured_sampler(sampler)
     values = source.points(
         count,
         dims,
         realizations=realizations,
         seed=seed,
-        progress=lambda done, total: progress("preparing", done, total),
+        progress=partial(progress, "preparing"),
     )
-    if path is not None:
-        _write(path, source, values, seed, lambda done, total: progress("writing", done, total))
+    if path is None:
+        return values
+    if is_picture:
+        from samplekit.plots import PointsDisplay
+
+        PointsDisplay.of_set(source, values[0], seed).save(path, _describe(source, int(count), int(dims), seed))
+    else:
+        from samplekit.files._pointsets.formats import write_points
+
+        write_points(values, path, progress=partial(progress, "writing"))
     return values
 
 
-def _check_output(path: Path, realizations: int, dims: int) -> None:
+def _check_output(path: Path, realizations: int, dims: int) -> bool:
+    """Check that such points fit into such a file; return True for a picture."""
     from samplekit.files._pointsets.formats import PICTURES, check_path
 
-    if check_path(path, realizations) in PICTURES:
-        from samplekit.plots._points import check_dims
+    if check_path(path, realizations) not in PICTURES:
+        return False
+    from samplekit.plots._points import check_dims
 
-        check_dims(dims)
-
-
-def _write(
-    path: Path,
-    source: ConfiguredSampler,
-    values: NDArray[np.float64],
-    seed: int,
-    progress: Callable[[int, int], None],
-) -> None:
-    from samplekit.files._pointsets.formats import PICTURES, write_points
-
-    if path.suffix.lower() in PICTURES:
-        from samplekit.plots import PointsDisplay
-
-        PointsDisplay.of_set(source, values[0], seed).save(
-            path, _describe(source, values.shape[1], values.shape[2], seed)
-        )
-    else:
-        write_points(values, path, progress=progress)
+    check_dims(dims)
+    return True
 
 
 def _describe(source: ConfiguredSampler, count: int, dims: int, seed: int) -> dict[str, Any]:

@@ -10,13 +10,11 @@ import numpy as np
 
 from samplekit._bases.realizations import Realizations, check_seed
 from samplekit._bases.sampler import Sampler
-from samplekit._checks import check_positive
-from samplekit._choices import parse_choice
-from samplekit._configured.configured import Configured, are_texts, not_installed, option_names
+from samplekit._checks import as_integer, check_positive
+from samplekit._configured.configured import Configured, find_choice
 from samplekit._configured.randomizer import ConfiguredRandomizer, randomizer
 from samplekit._errors import CountError, DimensionsError, UsageError
 from samplekit._memory import check_memory
-from samplekit._registry import registry
 from samplekit._specs import SamplerSpec
 
 if TYPE_CHECKING:
@@ -149,7 +147,7 @@ class ConfiguredSampler(Configured):
     def notes(self, count: int, dims: int) -> list[str]:
         """Return what a user of these sets should know; see :meth:`Sampler.notes`."""
         return self._boundary.call(
-            "cannot tell its notes", lambda: self._sampler.notes(count, dims), are_texts, "texts"
+            "cannot tell its notes", lambda: self._sampler.notes(count, dims), _are_texts, "texts"
         )
 
     def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
@@ -208,17 +206,15 @@ class ConfiguredSampler(Configured):
         """
         self.check(count, dims)
         check_seed(seed)
-        stop = count if stop is None else stop
-        whole = all(isinstance(edge, (int, np.integer)) and not isinstance(edge, bool) for edge in (start, stop))
-        if not whole or not 0 <= start < stop <= count:
-            raise UsageError(f"slice {start}:{stop}: expected integers with 0 <= start < stop <= {count}")
         count, dims, realizations = int(count), int(dims), check_positive("realizations", realizations)
-        start, stop = int(start), int(stop)
+        first, end = as_integer(start), count if stop is None else as_integer(stop)
+        if first is None or end is None or not 0 <= first < end <= count:
+            raise UsageError(f"slice {start}:{stop}: expected integers with 0 <= start < stop <= {count}")
         # A float64 as the sampler makes it, and another in the order that is returned.
-        check_memory(2 * 8 * realizations * dims * (stop - start), "these points")
+        check_memory(2 * 8 * realizations * dims * (end - first), "these points")
         self.prepare(count, dims, progress)
-        out = np.empty((realizations, dims, stop - start))
-        self.fill(out, Realizations.of_trials(0, realizations, seed), count, start)
+        out = np.empty((realizations, dims, end - first))
+        self.fill(out, Realizations.of_trials(0, realizations, seed), count, first)
         return np.ascontiguousarray(out.transpose(0, 2, 1))
 
 
@@ -246,14 +242,12 @@ def sampler(choice: str | SamplerSpec | ConfiguredSampler, **options: object) ->
     """
     if isinstance(choice, ConfiguredSampler) and not options:
         return choice
-    given = option_names(options)
-    if isinstance(choice, SamplerSpec):
-        return ConfiguredSampler(not_installed(choice), given)
-    if not isinstance(choice, str):
-        raise UsageError(f"sampler {choice!r}: expected a text, or a declaration with options")
-    parsed = parse_choice(choice, "sampler")
-    randomizers = (randomizer(parsed.randomizer),) if parsed.randomizer else ()
-    return ConfiguredSampler(registry().find("sampler", parsed.name), {**parsed.options, **given}, randomizers)
+    registration, given, name = find_choice("sampler", choice, options)
+    return ConfiguredSampler(registration, given, (randomizer(name),) if name else ())
+
+
+def _are_texts(notes: object) -> bool:
+    return isinstance(notes, (list, tuple)) and all(isinstance(note, str) for note in notes)
 
 
 def _randomized(sampler: SamplerSpec, randomizer: RandomizerSpec) -> SamplerSpec:

@@ -8,10 +8,8 @@ import numpy as np
 
 from samplekit._bases.reference import Reference
 from samplekit._bases.scene import Scene
-from samplekit._choices import parse_choice
-from samplekit._configured.configured import Configured, not_installed, option_names
+from samplekit._configured.configured import Configured, find_choice
 from samplekit._errors import UsageError
-from samplekit._registry import registry
 from samplekit._specs import PIXEL_FILTER, SceneSpec
 
 if TYPE_CHECKING:
@@ -74,21 +72,28 @@ class ConfiguredScene(Configured):
 
     def sums(self, tile: Array, boxes: Array, out: Array) -> None:
         """Sum the integrand over the samples of each pixel; see :meth:`Scene.sums`."""
-        if self.at_centre:
-            tile, boxes = _centred(tile, boxes)
+        tile, boxes = self._placed(tile, boxes)
         self._boundary.fill("cannot be evaluated", out, lambda: self._scene.sums(tile, boxes, out))
 
     def values(self, tile: Array, boxes: Array) -> Array:
         """Evaluate the integrand at each sample, float64[P, n]; see :meth:`Scene.values`."""
-        if self.at_centre:
-            tile, boxes = _centred(tile, boxes)
+        tile, boxes = self._placed(tile, boxes)
         return self._ask("be evaluated", lambda: self._scene.values(tile, boxes))
 
     def parts(self, tile: Array, boxes: Array) -> Sequence[Array]:
         """Return the terms whose exact sum is the value at each sample; see :meth:`Scene.parts`."""
-        if self.at_centre:
-            tile, boxes = _centred(tile, boxes)
+        tile, boxes = self._placed(tile, boxes)
         return self._ask("be evaluated", lambda: self._scene.parts(tile, boxes))
+
+    def _placed(self, tile: Array, boxes: Array) -> tuple[Array, Array]:
+        """Return samples and boxes for the scene: at the centres, tiles get pixel dimensions and boxes are points."""
+        if not self.at_centre:
+            return tile, boxes
+        whole = np.zeros((tile.shape[0], tile.shape[1] + 2, tile.shape[2]))
+        whole[:, 2:] = tile
+        points = np.zeros_like(boxes)
+        points[0::2] = boxes[0::2] + 0.5 * boxes[1::2]
+        return whole, points
 
     def reference(self, x_edges: Array, y_edges: Array) -> Reference:
         """Return the mean over each pixel, or the value at its centre, and how exact it is.
@@ -175,15 +180,6 @@ def _centres(edges: Array) -> Array:
     return centres
 
 
-def _centred(tile: Array, boxes: Array) -> tuple[Array, Array]:
-    """Return the tile with pixel dimensions again, and boxes that are points."""
-    whole = np.zeros((tile.shape[0], tile.shape[1] + 2, tile.shape[2]))
-    whole[:, 2:] = tile
-    points = np.zeros_like(boxes)
-    points[0::2] = boxes[0::2] + 0.5 * boxes[1::2]
-    return whole, points
-
-
 def scene(choice: str | SceneSpec | ConfiguredScene, **options: object) -> ConfiguredScene:
     """Return a scene that is ready to be integrated.
 
@@ -208,10 +204,5 @@ def scene(choice: str | SceneSpec | ConfiguredScene, **options: object) -> Confi
     """
     if isinstance(choice, ConfiguredScene) and not options:
         return choice
-    given = option_names(options)
-    if isinstance(choice, SceneSpec):
-        return ConfiguredScene(not_installed(choice), given)
-    if not isinstance(choice, str):
-        raise UsageError(f"scene {choice!r}: expected a text, or a declaration with options")
-    parsed = parse_choice(choice, "scene")
-    return ConfiguredScene(registry().find("scene", parsed.name), {**parsed.options, **given})
+    registration, given, _ = find_choice("scene", choice, options)
+    return ConfiguredScene(registration, given)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import threading
 import time
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -27,13 +27,6 @@ if TYPE_CHECKING:
 
 TILE_BYTES = 512 * 1024
 _scratch = threading.local()
-
-
-class Observer(Protocol):
-    """Sees every tile of points before the scene does."""
-
-    def __call__(self, tile: Array, boxes: Array) -> None:
-        """Take a block of samples float64[P, D, n] of the pixels ``boxes`` float64[4, P]; neither may be kept."""
 
 
 class Clock:
@@ -83,7 +76,7 @@ def integrate(
     *,
     clock: Clock | None = None,
     tick: Callable[[int], None] = lambda _: None,
-    observe: Observer | None = None,
+    observe: Callable[[Array, Array], None] = lambda _, __: None,
     tile_bytes: int = TILE_BYTES,
 ) -> Array:
     """Estimate the mean of a scene over pixels.
@@ -104,7 +97,8 @@ def integrate(
     tick
         Called now and then with the number of samples done since the last call.
     observe
-        Called with each tile of points: for sums in extended precision, and to count values.
+        Called before the scene with each tile of samples float64[P, D, n] and their pixels' boxes float64[4, P], of
+        which it may keep neither: for sums in extended precision, and to count values.
     tile_bytes
         Size of a tile of points; no result depends on it.
 
@@ -119,40 +113,24 @@ def integrate(
     with np.errstate(all="ignore"):
         for first in range(0, pixels, at_once):
             part = slice(first, first + at_once)
-            tiles = _tiles(scene, sampler, counts, realizations[part], clock)
-            _integrate_tiles(scene, counts, tiles, boxes[:, part].copy(), means[:, part], clock, tick, observe)
+            part_boxes, total, block, row = boxes[:, part].copy(), PairwiseSum(), np.zeros(0), 0
+            for start, stop, tile in _tiles(scene, sampler, counts, realizations[part], clock):
+                observe(tile, part_boxes)
+                sums = np.empty(part_boxes.shape[1])
+                clock.start()
+                scene.sums(tile, part_boxes, sums)
+                clock.stop(clock.scene)
+                tick(sums.size * (stop - start))
+                block = block + sums if start % BLOCK else sums
+                # The end of a single count joins the tree of partial sums; a prefix leaves the tree as it is.
+                joins = stop % BLOCK == 0 or len(counts) == 1
+                if joins:
+                    total.add(block)
+                if stop == counts[row]:
+                    sums = total.total() if joins else total.total() + block if stop > BLOCK else block
+                    means[row, part] = sums / stop
+                    row += 1
     return means
-
-
-def _integrate_tiles(
-    scene: ConfiguredScene,
-    counts: Sequence[int],
-    tiles: Iterator[tuple[int, int, Array]],
-    boxes: Array,
-    means: Array,
-    clock: Clock,
-    tick: Callable[[int], None],
-    observe: Observer | None,
-) -> None:
-    """Write the means of the pixels whose points come in ``tiles``."""
-    total, block, row = PairwiseSum(), np.zeros(0), 0
-    for start, stop, tile in tiles:
-        if observe is not None:
-            observe(tile, boxes)
-        sums = np.empty(boxes.shape[1])
-        clock.start()
-        scene.sums(tile, boxes, sums)
-        clock.stop(clock.scene)
-        tick(sums.size * (stop - start))
-        block = block + sums if start % BLOCK else sums
-        # The end of a single count joins the tree of partial sums; a prefix leaves the tree as it is.
-        joins = stop % BLOCK == 0 or len(counts) == 1
-        if joins:
-            total.add(block)
-        if stop == counts[row]:
-            sums = total.total() if joins else total.total() + block if stop > BLOCK else block
-            means[row] = sums / stop
-            row += 1
 
 
 def _tiles(

@@ -50,6 +50,11 @@ class Pixels:
         return self.window[2] * self.window[3]
 
     @property
+    def cropped(self) -> bool:
+        """True if the window is not the whole image."""
+        return self.window != (0, 0, *self.size)
+
+    @property
     def shape(self) -> tuple[int, int]:
         """Height and width of the window, as arrays have them."""
         return self.window[3], self.window[2]

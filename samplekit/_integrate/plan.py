@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -13,6 +14,8 @@ from samplekit._memory import check_memory
 from samplekit._registry import registry
 
 if TYPE_CHECKING:
+    from collections.abc import Collection
+
     from samplekit._configured.sampler import ConfiguredSampler
     from samplekit._configured.scene import ConfiguredScene
     from samplekit._specs import SamplerSpec
@@ -47,8 +50,27 @@ class Plan:
     def file_stem(self) -> str:
         """Name of the rendering's files without an ending, as `check_stem` takes it; a crop has its own name."""
         pixels = self.pixels
-        crop = "" if pixels.window == (0, 0, *pixels.size) else "-crop-" + "-".join(map(str, pixels.window))
+        crop = "-crop-" + "-".join(map(str, pixels.window)) if pixels.cropped else ""
         return f"{pixels.scene.text}-{self.sampler.text}-{self.count}spp{crop}"
+
+    def command(self, metrics: Collection[str]) -> str:
+        """Return the command that makes the image, without options that the image does not depend on.
+
+        Parameters
+        ----------
+        metrics
+            Names of the metrics that were computed; some are computed only on request.
+        """
+        pixels = self.pixels
+        words = ["samplekit", "render", "--scene", pixels.scene.text, "--sampler", self.sampler.text]
+        words += ["--spp", str(self.count), "--size", f"{pixels.size[0]}x{pixels.size[1]}"]
+        if pixels.cropped:
+            words += ["--crop", ",".join(map(str, pixels.window))]
+        words += ["--seed", str(self.seed)]
+        words += ["--full"] if pixels.full else []
+        words += [] if self.reference else ["--no-error"]
+        words += [f"--{name}" for name in ("ssim", "flip") if name in metrics]
+        return shlex.join(words)
 
     def explain(self) -> list[str]:
         """Say what is done and what is left out, one line each."""
@@ -92,10 +114,10 @@ def make_plan(
         The sampler cannot give the points, the window is not inside the image, or there is not the memory or the time.
     """
     seed = check_seed(seed)
-    width, height = check_size(size)
-    window = check_crop(crop, (width, height)) if crop is not None else (0, 0, width, height)
+    size = check_size(size)
+    window = (0, 0, *size) if crop is None else check_crop(crop, size)
     check_points(scene, sampler, count)
-    pixels = Pixels(scene, (width, height), window, full)
+    pixels = Pixels(scene, size, window, full)
     check_samples(len(pixels), int(count), "one image")
     advice = ": render it in parts with --crop X,Y,W,H"
     check_memory(len(pixels) * _BYTES_PER_PIXEL, f"images of {len(pixels)} pixels", advice)

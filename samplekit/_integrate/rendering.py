@@ -10,16 +10,16 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from samplekit import _provenance as provenance
 from samplekit._configured.sampler import sampler as configured_sampler
 from samplekit._configured.scene import scene as configured_scene
 from samplekit._errors import UsageError
-from samplekit._integrate.loop import TILE_BYTES, Clock, count_invalid_samples, integrate, pixels_per_tile
+from samplekit._integrate.loop import Clock, count_invalid_samples, integrate, pixels_per_tile
 from samplekit._integrate.plan import Plan, make_plan
+from samplekit._provenance import versions
 from samplekit._threads import check_threads, on_threads, requesting
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
     from pathlib import Path
 
     from matplotlib.axes import Axes
@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 
     Progress = Callable[[int, int], None]
 
+SCHEMA = "samplekit.rendering/1"
 _JOBS_PER_THREAD = 8
 
 
@@ -75,20 +76,38 @@ class Rendering:
 
     def describe(self) -> dict[str, Any]:
         """Return how the image was made; the same for the same request, so without times and paths."""
-        return provenance.describe(self)
+        plan, pixels, scene = self.plan, self.plan.pixels, self.plan.pixels.scene
+        return {
+            "schema": SCHEMA,
+            "command": plan.command(self.metrics),
+            "versions": versions(),
+            "seed": str(plan.seed),
+            "sampler": plan.sampler.text,
+            "sampler_plugin": str(plan.sampler.plugin),
+            "sampler_notes": plan.sampler.notes(plan.count, scene.dims),
+            "scene": scene.text,
+            "scene_plugin": str(scene.plugin),
+            "scene_notes": scene.notes(),
+            "spp": plan.count,
+            "dimensions": dict(scene.needs),
+            "size": list(pixels.size),
+            "window": list(pixels.window),
+            "reference": self.reference_kind,
+            "metrics": _finite(self.metrics),
+        }
 
     def as_json(self) -> dict[str, Any]:
         """Return what ``samplekit render --json`` prints."""
         plan, pixels = self.plan, self.plan.pixels
         return {
-            "schema": provenance.SCHEMA,
+            "schema": SCHEMA,
             "sampler": plan.sampler.text,
             "scene": pixels.scene.text,
             "spp": plan.count,
             "size": list(pixels.size),
             "window": list(pixels.window),
             "seed": plan.seed,
-            **provenance.finite(self.metrics),
+            **_finite(self.metrics),
             "reference": self.reference_kind,
             "seconds": self.seconds,
             "files": [str(file) for file in self.files],
@@ -173,7 +192,7 @@ def render(
     flip: bool = False,
     output: str | os.PathLike[str] | None = None,
     explain: Callable[[str], None] | None = None,
-    progress: Progress | None = None,
+    progress: Progress = lambda _, __: None,
     preparing: Progress = lambda _, __: None,
 ) -> Rendering:
     """Render a scene, integrating every pixel with samples.
@@ -247,9 +266,8 @@ def render_plan(
     plan: Plan,
     *,
     threads: int | None = None,
-    progress: Progress | None = None,
+    progress: Progress = lambda _, __: None,
     preparing: Progress = lambda _, __: None,
-    tile_bytes: int = TILE_BYTES,
     ssim: bool = False,
     flip: bool = False,
 ) -> Rendering:
@@ -263,8 +281,6 @@ def render_plan(
         As in :func:`render`.
     preparing
         Called with the numbers of steps done and to do while the sampler makes what its sets share.
-    tile_bytes
-        Size of a tile of points. The image does not depend on it.
 
     Raises
     ------
@@ -282,7 +298,7 @@ def render_plan(
     began = time.perf_counter()
     plan.sampler.prepare(plan.count, scene.dims, preparing)
     seconds = {"setup": time.perf_counter() - began}
-    image, points, evaluation = _render_samples(plan, threads, progress, tile_bytes)
+    image, points, evaluation = _render_samples(plan, threads, progress)
     seconds |= {"points": points, "scene": evaluation}
     metrics: dict[str, float] = {}
     if not np.isfinite(image).all():
@@ -317,6 +333,11 @@ def render_plan(
     return Rendering(image, reference, error, metrics, seconds, plan, reference_kind)
 
 
+def _finite(numbers: Mapping[str, float]) -> dict[str, float | None]:
+    """Return the numbers for JSON, which has no infinity: numbers that are not finite become None."""
+    return {name: number if math.isfinite(number) else None for name, number in numbers.items()}
+
+
 def _check_metrics(plan: Plan, ssim: bool, flip: bool) -> None:
     if (ssim or flip) and not plan.reference:
         raise UsageError("--ssim and --flip compare with the reference, which --no-error leaves out")
@@ -326,12 +347,10 @@ def _check_metrics(plan: Plan, ssim: bool, flip: bool) -> None:
         check_ssim(plan.pixels.window[2:])
 
 
-def _render_samples(
-    plan: Plan, threads: int, progress: Progress | None, tile_bytes: int
-) -> tuple[NDArray[np.float64], float, float]:
+def _render_samples(plan: Plan, threads: int, progress: Progress) -> tuple[NDArray[np.float64], float, float]:
     """Return the image float64[P], row by row, and the seconds that all threads spent on points and on the scene."""
     pixels, scene, sampler = plan.pixels, plan.pixels.scene, plan.sampler
-    at_once = pixels_per_tile(scene, sampler, plan.count, tile_bytes)
+    at_once = pixels_per_tile(scene, sampler, plan.count)
     share = math.ceil(pixels.sampled.size / (threads * _JOBS_PER_THREAD))
     job_pixels = max(1, math.ceil(share / at_once) * at_once)
     starts = range(0, pixels.sampled.size, job_pixels)
@@ -340,16 +359,13 @@ def _render_samples(
     def work(start: int, tick: Callable[[int], None]) -> tuple[NDArray[np.float64], Clock]:
         clock = Clock()
         realizations, boxes = pixels.locate(pixels.sampled[start : start + job_pixels], plan.seed)
-        means = integrate(
-            scene, sampler, (plan.count,), realizations, boxes, clock=clock, tick=tick, tile_bytes=tile_bytes
-        )
+        means = integrate(scene, sampler, (plan.count,), realizations, boxes, clock=clock, tick=tick)
         return means[0], clock
 
     def tick(samples: int) -> None:
         nonlocal done
         done += samples
-        if progress is not None:
-            progress(done, total)
+        progress(done, total)
 
     image, points, evaluation = pixels.constant_means(plan.count), 0.0, 0.0
     for start, (means, clock) in on_threads(work, starts, threads, tick):

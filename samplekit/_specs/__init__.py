@@ -2,16 +2,9 @@
 
 from samplekit._specs.counts import AnyCount as AnyCount
 from samplekit._specs.counts import Counts as Counts
-from samplekit._specs.counts import Exactly as Exactly
-from samplekit._specs.counts import FibonacciNumbers as FibonacciNumbers
-from samplekit._specs.counts import Powers as Powers
 from samplekit._specs.counts import PowersOf as PowersOf
-from samplekit._specs.counts import PrimePowers as PrimePowers
-from samplekit._specs.counts import Products as Products
-from samplekit._specs.declaration import API_VERSION as API_VERSION
 from samplekit._specs.declaration import CommandOption as CommandOption
 from samplekit._specs.declaration import CommandSpec as CommandSpec
-from samplekit._specs.option import NAME as NAME
 from samplekit._specs.option import Option as Option
 from samplekit._specs.option import OptionValue as OptionValue
 from samplekit._specs.option import written as written
@@ -19,12 +12,9 @@ from samplekit._specs.promise import GridStrata as GridStrata
 from samplekit._specs.promise import LatinStrata as LatinStrata
 from samplekit._specs.promise import MinimumDistance as MinimumDistance
 from samplekit._specs.promise import Net as Net
-from samplekit._specs.promise import OrthogonalArray as OrthogonalArray
 from samplekit._specs.promise import Promise as Promise
 from samplekit._specs.promise import Strata as Strata
 from samplekit._specs.randomizer import RandomizerSpec as RandomizerSpec
 from samplekit._specs.sampler import SamplerSpec as SamplerSpec
 from samplekit._specs.scene import PIXEL_FILTER as PIXEL_FILTER
 from samplekit._specs.scene import SceneSpec as SceneSpec
-
-Spec = SamplerSpec | RandomizerSpec | SceneSpec | CommandSpec | CommandOption

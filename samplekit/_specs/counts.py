@@ -40,9 +40,9 @@ class Counts(ABC):
     [64, 128]
     """
 
-    @abstractmethod
     def allows(self, count: int, dims: int) -> bool:
         """Tell whether sets of ``count`` points in ``dims`` dimensions can be made."""
+        return count >= 1 and self.above(count - 1, dims) == count
 
     @abstractmethod
     def below(self, count: int, dims: int) -> int | None:
@@ -89,17 +89,13 @@ class Counts(ABC):
         CountError
             Names the nearest counts below and above that can be made.
         """
-        if not self.allows(count, dims):
-            below, above = self.below(count, dims), self.above(count, dims)
-            message = self._refusal(name, count, dims) if count >= 1 else f"count {count}: expected at least 1"
-            raise CountError(message, count, below, above)
-
-    def _refusal(self, name: str, count: int, dims: int) -> str:
-        nearest = self.nearest(count, dims)
+        if self.allows(count, dims):
+            return
+        below, above = self.below(count, dims), self.above(count, dims)
+        nearest = [str(near) for near in (below, above) if near is not None]
         where = f" in {dims} dimensions" if self.depends_on_dims else ""
-        verb = "is" if len(nearest) == 1 else "are"
-        known = f": the nearest {verb} {' and '.join(map(str, nearest))}" if nearest else ""
-        return f"{name} makes {self.describe()}{where}, not {count}{known}"
+        known = f": the nearest {'is' if len(nearest) == 1 else 'are'} {' and '.join(nearest)}" if nearest else ""
+        raise CountError(f"{name} makes {self.describe()}{where}, not {count}{known}", count, below, above)
 
 
 class AnyCount(Counts):
@@ -111,10 +107,6 @@ class AnyCount(Counts):
     >>> AnyCount().allows(97, dims=2)
     True
     """
-
-    def allows(self, count: int, dims: int) -> bool:
-        """See :meth:`Counts.allows`."""
-        return count >= 1
 
     def below(self, count: int, dims: int) -> int | None:
         """See :meth:`Counts.below`."""
@@ -207,11 +199,6 @@ class Powers(Counts):
     def __post_init__(self) -> None:
         require_fields(self, type(self).__name__, degree=(integer(2), "an integer from 2 on"))
 
-    def allows(self, count: int, dims: int) -> bool:
-        """See :meth:`Counts.allows`."""
-        root = floor_root(count, self.degree)
-        return root**self.degree == count and self._is_root(root)
-
     def below(self, count: int, dims: int) -> int | None:
         """See :meth:`Counts.below`."""
         roots = range(floor_root(count - 1, self.degree), 0, -1)
@@ -276,12 +263,6 @@ class PowersOf(Counts):
     def __post_init__(self) -> None:
         require_fields(self, "PowersOf", base=(integer(2), "an integer from 2 on"))
 
-    def allows(self, count: int, dims: int) -> bool:
-        """See :meth:`Counts.allows`."""
-        while count > 1 and count % self.base == 0:
-            count //= self.base
-        return count == 1
-
     def below(self, count: int, dims: int) -> int | None:
         """See :meth:`Counts.below`."""
         return self.above(count - 1, dims) // self.base if count > 1 else None
@@ -314,10 +295,6 @@ class FibonacciNumbers(Counts):
     >>> FibonacciNumbers().nearest(100, dims=2)
     [89, 144]
     """
-
-    def allows(self, count: int, dims: int) -> bool:
-        """See :meth:`Counts.allows`."""
-        return _fibonacci_pair(count)[1] == count
 
     def below(self, count: int, dims: int) -> int | None:
         """See :meth:`Counts.below`."""
@@ -355,10 +332,6 @@ class Exactly(Counts):
     def __post_init__(self) -> None:
         require_fields(self, "Exactly", count=(integer(1), "a positive integer"))
 
-    def allows(self, count: int, dims: int) -> bool:
-        """See :meth:`Counts.allows`."""
-        return count == self.count
-
     def below(self, count: int, dims: int) -> int | None:
         """See :meth:`Counts.below`."""
         return self.count if self.count < count else None
@@ -369,7 +342,7 @@ class Exactly(Counts):
 
     def describe(self) -> str:
         """See :meth:`Counts.describe`."""
-        return f"exactly {self.count}"
+        return f"exactly {self.count} points"
 
     def short(self) -> str:
         """See :meth:`Counts.short`."""
@@ -377,9 +350,6 @@ class Exactly(Counts):
 
     def __str__(self) -> str:
         return f"exactly-{self.count}"
-
-    def _refusal(self, name: str, count: int, dims: int) -> str:
-        return f"{name} makes {self.describe()} points, not {count}"
 
 
 @lru_cache(4096)

@@ -4,21 +4,19 @@ from __future__ import annotations
 
 import contextlib
 import importlib
-import re
 import sys
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from samplekit._errors import SamplekitError, UsageError
 from samplekit._quoting import reason
-from samplekit._specs.fields import instance_of, integer, is_line, require_fields, tuple_of
-from samplekit._specs.option import NAME, Option, OptionValue
+from samplekit._specs.fields import NAME, instance_of, integer, is_line, matching, require_fields, tuple_of
+from samplekit._specs.option import Option, OptionValue
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
 API_VERSION = 1
-TARGET = re.compile(r"^[A-Za-z_][\w.]*:[A-Za-z_]\w*\Z")
 
 
 @dataclass(frozen=True)
@@ -49,13 +47,11 @@ class Declaration:
     api_version: int = field(default=API_VERSION, kw_only=True)
 
     def __post_init__(self) -> None:
-        if not (isinstance(self.name, str) and NAME.match(self.name)):
-            raise ValueError(f"bad name {self.name!r}: want [a-z][a-z0-9-]*")
-        if not (isinstance(self.target, str) and TARGET.match(self.target)):
-            raise ValueError(f"{self.name}: bad target {self.target!r}: want 'package.module:Class'")
         require_fields(
             self,
             self.name,
+            name=(matching(NAME), f"of the form {NAME}"),
+            target=(matching(r"[A-Za-z_][\w.]*:[A-Za-z_]\w*"), "of the form 'package.module:Class'"),
             summary=(is_line, "text of one line"),
             reference=(is_line, "text of one line"),
             options=(tuple_of(instance_of(Option)), "a tuple of options, each an Option"),
@@ -155,8 +151,7 @@ class CommandOption(Declaration):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if not (isinstance(self.command, str) and NAME.match(self.command)):
-            raise ValueError(f"{self.name}: command must be the name of a command")
+        require_fields(self, self.name, command=(matching(NAME), "the name of a command"))
         Option(self.name, self.default, self.summary)
 
     @property

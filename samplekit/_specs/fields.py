@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import unicodedata
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +12,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     Predicate = Callable[[Any], bool]
+
+
+NAME = "[a-z][a-z0-9-]*"
+"""What names of samplers, scenes, randomizers, commands and options look like."""
 
 
 def require_fields(declared: object, who: str, /, **fields: tuple[Predicate, str]) -> None:
@@ -36,9 +41,9 @@ def require_fields(declared: object, who: str, /, **fields: tuple[Predicate, str
             raise ValueError(f"{who}: {name} must be {expected}, not {quoted(value)}")
 
 
-def is_flag(value: object) -> bool:
-    """Tell whether it is True or False."""
-    return isinstance(value, bool)
+def matching(pattern: str) -> Predicate:
+    """Make the predicate of texts that match a regular expression from end to end."""
+    return lambda value: isinstance(value, str) and re.fullmatch(pattern, value) is not None
 
 
 def is_line(value: object) -> bool:

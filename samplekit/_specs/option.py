@@ -9,12 +9,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, SupportsFloat, SupportsIndex
 
 from samplekit._errors import UsageError
-from samplekit._specs.fields import instance_of, is_flag, is_line, is_number, optional, require_fields, tuple_of
+from samplekit._specs.fields import NAME, instance_of, is_line, is_number, matching, optional, require_fields, tuple_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
-
-NAME = re.compile(r"^[a-z][a-z0-9-]*\Z")
 
 OptionValue = int | float | str | bool
 
@@ -54,18 +52,17 @@ class Option:
     required: bool = False
 
     def __post_init__(self) -> None:
-        if not (isinstance(self.name, str) and NAME.match(self.name)):
-            raise ValueError(f"bad option name {self.name!r}")
         bound = optional(is_number), "a number or None"
         require_fields(
             self,
             f"option {self.name}",
+            name=(matching(NAME), f"of the form {NAME}"),
             default=(_is_default, "a finite int or float, a str or a bool"),
             summary=(is_line, "text of one line"),
             minimum=bound,
             maximum=bound,
             choices=(tuple_of(instance_of(str)), "a tuple of text"),
-            required=(is_flag, "True or False"),
+            required=(instance_of(bool), "True or False"),
         )
         if not self.required:
             try:
@@ -104,18 +101,18 @@ class Option:
             return " or ".join(self.choices)
         kind = type(self.default)
         expected = {bool: "true or false", int: "an integer", float: "a number", str: "text"}[kind]
-        if self.minimum is None and self.maximum is None:
-            return f"{expected}, finite" if kind is float else expected
-        low = "" if self.minimum is None else f" of at least {self.minimum:g}"
-        high = "" if self.maximum is None else f" of at most {self.maximum:g}"
-        return expected + ((low and high and f" from {self.minimum:g} to {self.maximum:g}") or low or high)
+        limits = self._limits()
+        return f"{expected} {limits}" if limits else f"{expected}, finite" if kind is float else expected
+
+    def _limits(self) -> str:
+        """State the range of a number: ``"from 0 on"``, ``"from 1 to 9"``; empty if there is none."""
+        if self.minimum is None:
+            return "" if self.maximum is None else f"up to {self.maximum:g}"
+        return f"from {self.minimum:g} on" if self.maximum is None else f"from {self.minimum:g} to {self.maximum:g}"
 
     def describe(self) -> str:
-        """Say what the option means and takes: ``"of the disk; 0 and more"``."""
-        takes = " or ".join(self.choices)
-        if not takes and (self.minimum is not None or self.maximum is not None):
-            low = "any" if self.minimum is None else f"{self.minimum:g}"
-            takes = f"{low} and more" if self.maximum is None else f"{low} to {self.maximum:g}"
+        """Say what the option means and takes: ``"of the disk; from 0 on"``."""
+        takes = " or ".join(self.choices) or self._limits()
         return "; ".join(part for part in (self.summary, takes) if part) + (" (required)" if self.required else "")
 
 

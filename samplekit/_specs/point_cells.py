@@ -12,9 +12,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
+
+from samplekit._specs.promise import name_dimensions
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -69,31 +71,7 @@ def cell_of(x: NDArray[np.float64], cells: int) -> NDArray[np.int64]:
     return np.clip(cell, 0, cells - 1)
 
 
-class UnevenCell(NamedTuple):
-    """A cell that holds more or fewer points than it should.
-
-    Attributes
-    ----------
-    cells
-        The cells of which it is one.
-    realization
-        Index of the set.
-    place
-        Which of the cells it is along each axis.
-    inside
-        bool[N]: which points of the set are in it.
-    empty
-        How many of the cells are empty in this set.
-    """
-
-    cells: Cells
-    realization: int
-    place: tuple[int, ...]
-    inside: NDArray[np.bool_]
-    empty: int
-
-
-def find_uneven_cell(points: NDArray[np.float64], grids: Iterable[Cells]) -> UnevenCell | None:
+def find_uneven_cell(points: NDArray[np.float64], grids: Iterable[Cells], keyword: str) -> Violation | None:
     """Find the first set in which the cells of a grid do not all hold equally many points.
 
     Parameters
@@ -102,6 +80,8 @@ def find_uneven_cell(points: NDArray[np.float64], grids: Iterable[Cells]) -> Une
         float64[R, N, D]: R sets, each judged alone.
     grids
         Cells whose number divides N.
+    keyword
+        The kind of promise, for the message.
 
     Returns
     -------
@@ -130,11 +110,24 @@ def find_uneven_cell(points: NDArray[np.float64], grids: Iterable[Cells]) -> Une
                 boxes *= side
                 boxes += along(axis, side)
         held = np.bincount(boxes.ravel(), minlength=sets * total).reshape(sets, total)
-        if not (held == count // total).all():
-            row = int((held != count // total).any(axis=1).argmax())
-            box = int(held[row].argmax())
-            place = tuple(int(c) for c in np.unravel_index(box, cells.sides))
-            return UnevenCell(cells, row, place, boxes[row] == row * total + box, int((held[row] == 0).sum()))
+        uneven = (held != count // total).any(axis=1)
+        if uneven.any():
+            row = int(uneven.argmax())
+            fullest = int(held[row].argmax())
+            places = np.unravel_index(fullest, cells.sides)
+            intervals = [(int(place), side) for place, side in zip(places, cells.sides, strict=True)]
+            box = " x ".join(f"[{place}/{side}, {place + 1}/{side})" for place, side in intervals)
+            message = (
+                f"the cell {box} of {name_dimensions(cells.axes)} holds {held[row, fullest]} points,"
+                f" expected {count // total}; {(held[row] == 0).sum()} of {total} cells are empty ({keyword})"
+            )
+            return Violation(
+                message,
+                row,
+                tuple(np.flatnonzero(boxes[row] == row * total + fullest).tolist()),
+                cells.axes,
+                tuple((place / side, (place + 1) / side) for place, side in intervals),
+            )
     return None
 
 

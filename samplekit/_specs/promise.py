@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, ClassVar, NamedTuple
 
 from samplekit._errors import UsageError
 from samplekit._specs.counts import floor_root, grid_sides
-from samplekit._specs.fields import are_dimensions, integer, is_flag, is_number, optional, require_fields
+from samplekit._specs.fields import are_dimensions, instance_of, integer, is_number, optional, require_fields
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
-    from samplekit._specs.point_cells import UnevenCell, Violation
+    from samplekit._specs.point_cells import Violation
 
 _ROUNDING = 2.0**-51
 """Coordinates are rounded to 2^-53, and moved and wrapped with another rounding: a distance is known to this."""
@@ -94,28 +94,10 @@ class Promise(ABC):
         UsageError
             The array has another number of axes.
         """
-        from samplekit._specs.point_cells import Violation, find_uneven_cell
+        from samplekit._specs.point_cells import find_uneven_cell
 
         sets = _as_sets(points)
-        found = find_uneven_cell(sets, self.cells(*sets.shape[1:]))
-        if found is None:
-            return None
-        edges = [(c, side) for c, side in zip(found.place, found.cells.sides, strict=True)]
-        return Violation(
-            self._violation(found, " x ".join(f"[{c}/{side}, {c + 1}/{side})" for c, side in edges)),
-            found.realization,
-            tuple(int(i) for i in found.inside.nonzero()[0]),
-            found.cells.axes,
-            tuple((c / side, (c + 1) / side) for c, side in edges),
-        )
-
-    def _violation(self, found: UnevenCell, box: str) -> str:
-        count = found.inside.size
-        return (
-            f"the cell {box} of dimensions {_list(found.cells.axes)} holds {found.inside.sum()} points,"
-            f" expected {count // math.prod(found.cells.sides)};"
-            f" {found.empty} of {math.prod(found.cells.sides)} cells are empty ({self.keyword} strata)"
-        )
+        return find_uneven_cell(sets, self.cells(*sets.shape[1:]), self.keyword)
 
 
 @dataclass(frozen=True)
@@ -153,14 +135,14 @@ class Net(Promise):
             dims=(are_dimensions, "a tuple of different dimensions from 0 on"),
             base=(integer(2), "an integer from 2 on"),
             t=(integer(0), "an integer from 0 on"),
-            sequence=(is_flag, "True or False"),
+            sequence=(instance_of(bool), "True or False"),
         )
 
     def describe(self) -> str:
         """See :meth:`Promise.describe`."""
         blocks = ", and so is every later block of as many" if self.sequence else ""
         kind = f"({self.t}, m, {len(self.dims)})-net in base {self.base}"
-        return f"{_dimensions(self.dims)}: the first {self.base}^m points are a {kind}{blocks}"
+        return f"{name_dimensions(self.dims)}: the first {self.base}^m points are a {kind}{blocks}"
 
     def short(self, beside: Sequence[Promise] = ()) -> str:
         """See :meth:`Promise.short`."""
@@ -201,12 +183,6 @@ class Net(Promise):
         axes, others = ({axis for axis in net.dims if axis < dims} for net in (self, other))
         return others <= axes and (others < axes or self.t < other.t)
 
-    def _violation(self, found: UnevenCell, box: str) -> str:
-        return (
-            f"the elementary interval {box} of dimensions {_list(found.cells.axes)} holds {found.inside.sum()} points,"
-            f" expected {self.base**self.t} of {found.inside.size}"
-        )
-
 
 class Strata(Promise):
     """Promise: every cell of some grids holds exactly one point. What the three kinds of strata have in common."""
@@ -222,7 +198,7 @@ class LatinStrata(Strata):
     >>> LatinStrata().find_violation([[0.1, 0.7], [0.6, 0.2]]) is None
     True
     >>> print(LatinStrata().find_violation([[0.1, 0.7], [0.4, 0.2]]))
-    the cell [0/2, 1/2) of dimensions 0 holds 2 points, expected 1; 1 of 2 cells are empty (latin strata)
+    the cell [0/2, 1/2) of dimension 0 holds 2 points, expected 1; 1 of 2 cells are empty (latin)
     """
 
     dims: tuple[int, ...] | None = None
@@ -234,7 +210,7 @@ class LatinStrata(Strata):
 
     def describe(self) -> str:
         """See :meth:`Promise.describe`."""
-        where = "every dimension" if self.dims is None else _dimensions(self.dims)
+        where = "every dimension" if self.dims is None else name_dimensions(self.dims)
         return f"one point in each of N intervals of {where}"
 
     def short(self, beside: Sequence[Promise] = ()) -> str:
@@ -400,9 +376,8 @@ class MinimumDistance(Promise):
         return None
 
 
-def kinds_of_promises() -> list[str]:
-    """List the words for the kinds of promises, as randomizers name those that they keep."""
-    return sorted(kind.keyword for kind in (Net, LatinStrata, GridStrata, OrthogonalArray, MinimumDistance))
+KINDS = sorted(kind.keyword for kind in (Net, LatinStrata, GridStrata, OrthogonalArray, MinimumDistance))
+"""The words for the kinds of promises, as randomizers name those that they keep."""
 
 
 def _as_sets(points: ArrayLike) -> NDArray[np.float64]:
@@ -424,12 +399,9 @@ def _shares(digits: int, dims: int) -> Iterator[tuple[int, ...]]:
             yield (first, *rest)
 
 
-def _list(axes: tuple[int, ...]) -> str:
-    return ", ".join(map(str, axes))
-
-
-def _dimensions(axes: tuple[int, ...]) -> str:
-    return ("dimension " if len(axes) == 1 else "dimensions ") + _list(axes)
+def name_dimensions(axes: tuple[int, ...]) -> str:
+    """Return the axes after the word for them: ``"dimensions 0, 1"``."""
+    return ("dimension " if len(axes) == 1 else "dimensions ") + ", ".join(map(str, axes))
 
 
 def _coordinates(axes: tuple[int, ...], dims: int) -> str:

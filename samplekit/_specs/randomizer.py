@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from samplekit._specs.declaration import Declaration
-from samplekit._specs.fields import integer, is_flag, require_fields, tuple_of
-from samplekit._specs.promise import kinds_of_promises
+from samplekit._specs.fields import instance_of, integer, require_fields, tuple_of
+from samplekit._specs.promise import KINDS
 
 
 @dataclass(frozen=True)
@@ -35,11 +35,10 @@ class RandomizerSpec(Declaration):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        kinds = kinds_of_promises()
         require_fields(
             self,
             self.name,
-            keeps=(tuple_of(lambda kind: kind in kinds), f"a tuple of {', '.join(kinds)}"),
+            keeps=(tuple_of(lambda kind: kind in KINDS), f"a tuple of {', '.join(KINDS)}"),
             largest_index=(integer(0, 2**64 - 1), "an integer from 0 to 2^64 - 1"),
-            unbiased=(is_flag, "True or False"),
+            unbiased=(instance_of(bool), "True or False"),
         )

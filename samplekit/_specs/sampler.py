@@ -10,7 +10,7 @@ from samplekit._errors import UsageError
 from samplekit._quoting import quoted
 from samplekit._specs.counts import AnyCount, Counts
 from samplekit._specs.declaration import Declaration
-from samplekit._specs.fields import instance_of, integer, is_flag, is_line, optional, require_fields, tuple_of
+from samplekit._specs.fields import instance_of, integer, is_line, optional, require_fields, tuple_of
 from samplekit._specs.promise import Promise
 
 if TYPE_CHECKING:
@@ -80,8 +80,8 @@ class SamplerSpec(Declaration):
             dimensions=(_are_bounds, "(least, most) with 1 <= least <= most, or most None"),
             counts=(instance_of(Counts), "an object such as AnyCount() or PowersOf(2)"),
             progressive=(optional(instance_of(Counts)), "None or an object such as AnyCount() or PowersOf(2)"),
-            randomized=(is_flag, "True or False"),
-            unbiased=(is_flag, "True or False"),
+            randomized=(instance_of(bool), "True or False"),
+            unbiased=(instance_of(bool), "True or False"),
             period=(optional(integer(1)), "a positive integer or None"),
             screen_block=(optional(integer(2)), "an integer from 2 on, or None"),
             largest_index=(integer(0, 2**64 - 1), "an integer from 0 to 2^64 - 1"),

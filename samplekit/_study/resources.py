@@ -67,5 +67,5 @@ class Resources:
             return cast("T", self._made[key])
 
 
-OF_PROCESS = Resources()
+OF_PROCESS: Resources = Resources()
 """The resources of a worker process, for all of its threads."""

@@ -1,29 +1,23 @@
-"""Shell completion of names; silent whatever happens, and without importing any implementation."""
+"""Shell completion of names. It never prints an error, and imports no implementation."""
 
 from __future__ import annotations
 
 
 def complete_sampler(incomplete: str) -> list[tuple[str, str]]:
-    """Samplers, and after a plus sign the randomizers."""
+    """Return samplers, and after a plus sign randomizers, with their summaries."""
     sampler, plus, _ = incomplete.rpartition("+")
     if plus:
-        return [(f"{sampler}+{name}", summary) for name, summary in _names("randomizer")]
-    return _names("sampler")
+        return [(f"{sampler}+{name}", summary) for name, summary in names("randomizer")]
+    return names("sampler")
 
 
 def complete_scene(incomplete: str) -> list[tuple[str, str]]:
-    """Scenes."""
-    return _names("scene")
+    """Return scenes with their summaries."""
+    return names("scene")
 
 
-def complete_named(kinds: str, incomplete: str) -> list[tuple[str, str]]:
-    """Return names of a kind (``samplers``, ``scenes``, ``randomizers``) with their summaries."""
-    if kinds == "samplers":
-        return complete_sampler(incomplete)
-    return _names(kinds.removesuffix("s"))
-
-
-def _names(kind: str) -> list[tuple[str, str]]:
+def names(kind: str) -> list[tuple[str, str]]:
+    """Return the names of a kind (``sampler``, ``scene``, ``randomizer``) with their summaries."""
     try:
         from samplekit._registry import registry
 

@@ -1,4 +1,4 @@
-"""Interrupts that are not lost: Python drops the exception of one that arrives within a callback of its own."""
+"""Remember interrupts: Python drops the KeyboardInterrupt of one that arrives while it runs a callback of its own."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _received = threading.Event()
 
 @contextlib.contextmanager
 def remembered() -> Iterator[None]:
-    """Remember interrupts inside, beside raising them as ever; nothing where somebody else handles or ignores them."""
+    """Remember interrupts that arrive inside, which raise as usual; does nothing if the caller handles them itself."""
     _received.clear()
     ours = threading.current_thread() is threading.main_thread()
     if not ours or signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
@@ -34,6 +34,6 @@ def _remember(number: int, frame: Any) -> None:
 
 
 def check() -> None:
-    """Raise KeyboardInterrupt if one was received: work of some length asks now and then."""
+    """Raise KeyboardInterrupt if an interrupt was received. Long work calls this now and then."""
     if _received.is_set():
         raise KeyboardInterrupt

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import functools
 import sys
 from typing import Any
 
 
+@functools.cache
 def announce_compilation() -> None:
-    """Tell the user once that kernels are compiled, when the first one is not in the cache."""
+    """Tell the user, once in this process, that kernels are compiled, when the first one is not in the cache."""
     from numba.core import event
 
     class _Announcement(event.Listener):  # type: ignore[misc]

@@ -25,18 +25,13 @@ class Progress:
     def __exit__(self, *exception: object) -> None:
         self._remove()
 
-    @property
-    def shown(self) -> bool:
-        """True while the bar is on the terminal."""
-        return self._bar is not None
-
     def _remove(self) -> None:
         if self._bar is not None:
             self._bar.stop()
             self._bar = None
 
     def __call__(self, done: int, total: int) -> None:
-        """Show the state; a bar goes when all is done. Raises KeyboardInterrupt if one was received, and lost."""
+        """Show the state; the bar vanishes when all is done. Raises KeyboardInterrupt if Python dropped one."""
         interrupts.check()
         if done >= total:
             self._remove()

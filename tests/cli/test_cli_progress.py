@@ -1,5 +1,6 @@
 """The bar on a terminal: there while something is done, gone when it is done."""
 
+import collections
 import contextlib
 import itertools
 import signal
@@ -7,8 +8,10 @@ import sys
 import time
 
 import pytest
+from numba.core import event
 
 from samplekit._integrate import rendering as renderer
+from samplekit.commands._notices import announce_compilation
 from samplekit.commands._progress import Progress
 
 
@@ -24,11 +27,11 @@ def bar(monkeypatch):
 
 def test_a_bar_goes_when_all_is_done_and_not_when_the_next_is(bar):
     bar(1, 2)
-    assert bar.shown
+    assert bar._bar is not None
     bar(2, 2)
-    assert not bar.shown
+    assert bar._bar is None
     bar(1, 2)
-    assert bar.shown
+    assert bar._bar is not None
 
 
 def test_an_interrupt_that_was_lost_ends_the_work_all_the_same(command, tmp_path, monkeypatch):
@@ -50,3 +53,13 @@ def test_an_interrupt_that_was_lost_ends_the_work_all_the_same(command, tmp_path
     assert list(tmp_path.iterdir()) == []
     # It is forgotten with the command.
     assert command("render", "--sampler", "random", "--spp", "4", "--size", "8").status == 0
+
+
+def test_compilation_is_announced_once_in_a_process(monkeypatch, capsys):
+    monkeypatch.setattr(event, "_registered", collections.defaultdict(list))
+    announce_compilation.cache_clear()
+    for _ in range(2):
+        announce_compilation()
+        with event.trigger_event("numba:compile"):
+            pass
+    assert capsys.readouterr().err.count("compiling kernels") == 1

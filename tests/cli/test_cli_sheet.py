@@ -6,10 +6,7 @@ import sys
 
 import pytest
 
-from samplekit._cli import run, words
-from samplekit._cli.sheet import describe, lines
-from samplekit._registry import Plugin, registry
-from samplekit._specs import (
+from samplekit import (
     AnyCount,
     Exactly,
     FibonacciNumbers,
@@ -24,6 +21,9 @@ from samplekit._specs import (
     Products,
     SamplerSpec,
 )
+from samplekit._cli import run, words
+from samplekit._cli.sheet import describe, lines
+from samplekit._registry import Plugin, registry
 
 PLUGIN = Plugin("toys", "Toys", "1.0")
 
@@ -43,7 +43,7 @@ def test_a_sampler_in_full(capsys):
         "points         squares of primes: 4, 9, 25, 49,",
         "progressive    no: another number of points is another set",
         "one point in each of the s^2 cells of any 2 dimensions",
-        "strength=2         number of dimensions that are stratified together; 2 to 3",
+        "strength=2         number of dimensions that are stratified together; from 2 to 3",
         "largest index  4294967295",
         "period         none",
     ):
@@ -86,7 +86,7 @@ def test_a_range_without_end_is_json(capsys, monkeypatch):
     (record,) = json.loads(printed(capsys, "samplers", "endless", "--json"))["samplers"]
     assert record["options"][0]["maximum"] == "inf"
     assert record["options"][0]["minimum"] == 0.0
-    assert "far=1.0  0 to inf" in printed(capsys, "samplers", "endless")
+    assert "far=1.0  from 0 to inf" in printed(capsys, "samplers", "endless")
 
 
 @pytest.mark.parametrize(
@@ -143,7 +143,7 @@ def test_every_declaration_has_words():
         (PowersOf(4), "powers of 4: 1, 4, 16, 64, 256, 1024, 4096, 16384, ...", "4^m"),
         (FibonacciNumbers(), "Fibonacci numbers: 1, 2, 3, 5, 8, 13, 21, 34, ...", "Fibonacci"),
         (PrimePowers(3), "cubes of primes: 8, 27, 125, 343, 1331, 2197, 4913, 6859, ...", "prime^3"),
-        (Exactly(12), "exactly 12", "only 12"),
+        (Exactly(12), "exactly 12 points", "only 12"),
     ],
 )
 def test_counts_in_words(counts, said, short):

@@ -1,5 +1,6 @@
 """The image depends on nothing but the request: not on threads, tiles, the part asked for, or what is left out."""
 
+import functools
 import threading
 import time
 import tracemalloc
@@ -12,8 +13,8 @@ from samplekit._bases.realizations import Realizations
 from samplekit._configured.sampler import ConfiguredSampler
 from samplekit._configured.scene import ConfiguredScene
 from samplekit._errors import SamplekitError, UsageError
+from samplekit._integrate import rendering
 from samplekit._integrate.plan import make_plan
-from samplekit._integrate.rendering import render_plan
 from samplekit._registry import Plugin, Registration, Registry
 from samplekit._specs import Option, SamplerSpec, SceneSpec
 
@@ -52,11 +53,20 @@ def a_sampler(target):
     return ConfiguredSampler(Registration(SamplerSpec("toy", f"{__name__}:{target}", ""), TOYS, "toy"), {})
 
 
+def rendered(plan, *, tile_bytes=None, **how):
+    """The rendering of a plan, in tiles of another size than the usual one."""
+    with pytest.MonkeyPatch.context() as patch:
+        if tile_bytes is not None:
+            for function in (rendering.integrate, rendering.pixels_per_tile):
+                patch.setattr(rendering, function.__name__, functools.partial(function, tile_bytes=tile_bytes))
+        return rendering.render_plan(plan, **how)
+
+
 def image(scene, sampler, count, size, *, crop=None, full=False, seed=0, **how):
     scene = samplekit.scene(scene) if isinstance(scene, str) else scene
     sampler = samplekit.sampler(sampler) if isinstance(sampler, str) else sampler
     plan = make_plan(scene, sampler, count, size=size, crop=crop, seed=seed, full=full, reference=False)
-    return render_plan(plan, **how).image
+    return rendered(plan, **how).image
 
 
 def same(a, b):
@@ -280,7 +290,7 @@ def test_numbers_of_threads_that_cannot_be_are_refused(threads):
 def test_progress_rises_to_all_samples(threads):
     seen = []
     plan = make_plan(samplekit.scene("gaussian"), samplekit.sampler("random"), 1500, size=(20, 20), reference=False)
-    render_plan(plan, threads=threads, tile_bytes=2**16, progress=lambda done, total: seen.append((done, total)))
+    rendered(plan, threads=threads, tile_bytes=2**16, progress=lambda done, total: seen.append((done, total)))
     done = [number for number, _ in seen]
     assert done == sorted(done)
     assert done[-1] == 400 * 1500

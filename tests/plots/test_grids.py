@@ -1,6 +1,6 @@
 import pytest
 
-from samplekit._specs import GridStrata, LatinStrata, MinimumDistance, Net, OrthogonalArray
+from samplekit import GridStrata, LatinStrata, MinimumDistance, Net, OrthogonalArray
 from samplekit.plots._grids import Grid, describe_grids, grid_of
 
 

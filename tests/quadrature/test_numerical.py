@@ -11,7 +11,6 @@ from samplekit import Scene, UsageError
 from samplekit._builtin.scenes.depth_of_field import DepthOfField
 from samplekit._builtin.scenes.disk import Disk
 from samplekit._builtin.scenes.zoneplate import ZonePlate
-from samplekit._provenance import describe
 from samplekit._threads import requesting
 from samplekit.quadrature._numerical import numerical_means, numerical_means_at
 
@@ -108,17 +107,17 @@ def stranger():
 def test_metrics_and_metadata_say_that_it_is_no_exact_reference(stranger):
     result = samplekit.render(stranger, "random", 4, size=(16, 16))
     assert 0 < result.metrics["reference_error"] < 1e-2
-    described = describe(result)
+    described = result.describe()
     assert described["reference"].startswith("adaptive quadrature, estimated within")
     assert described["metrics"]["reference_error"] == result.metrics["reference_error"]
     json.dumps(described, allow_nan=False)
     exact = samplekit.render("disk", "random", 4, size=(16, 16))
     assert "reference_error" not in exact.metrics
-    assert describe(exact)["reference"] == "exact"
+    assert exact.describe()["reference"] == "exact"
     bounded = samplekit.render("ambient-occlusion", "random", 4, size=(4, 4))
     assert bounded.metrics["reference_error"] == 1e-8
-    assert describe(bounded)["reference"] == "within 1e-08"
-    assert describe(samplekit.render("disk", "random", 4, size=(4, 4), error=False))["reference"] == ""
+    assert bounded.describe()["reference"] == "within 1e-08"
+    assert samplekit.render("disk", "random", 4, size=(4, 4), error=False).describe()["reference"] == ""
 
 
 def test_it_is_the_same_on_any_number_of_processors():

@@ -182,7 +182,7 @@ def test_nearest_grids_of_large_counts():
         (PrimePowers(2), 2, 3, r"squares of primes, not 3: the nearest is 4"),
         (PrimePowers(3), 2, 100, r"cubes of primes, not 100: the nearest are 27 and 125"),
         (PowersOf(2), 2, 1000, r"powers of 2, not 1000: the nearest are 512 and 1024"),
-        (AnyCount(), 2, 0, r"count 0: expected at least 1"),
+        (AnyCount(), 2, 0, r"x makes any number, not 0: the nearest is 1"),
     ],
 )
 def test_the_error_names_the_nearest(rule, dims, count, message):

@@ -47,11 +47,11 @@ def test_large_counts_are_computed_not_searched(rule):
     ("rule", "count", "message"),
     [
         (FibonacciNumbers(), 100, "x makes Fibonacci numbers, not 100: the nearest are 89 and 144"),
-        (Exactly(100), 64, "x makes exactly 100 points, not 64"),
-        (Exactly(100), 128, "x makes exactly 100 points, not 128"),
+        (Exactly(100), 64, "x makes exactly 100 points, not 64: the nearest is 100"),
+        (Exactly(100), 128, "x makes exactly 100 points, not 128: the nearest is 100"),
         (PrimePowers(2), 1, "x makes squares of primes, not 1: the nearest is 4"),
         (Products(3), 97, "x makes products of 3 near-equal sides (a grid), not 97: the nearest are 96 and 100"),
-        (AnyCount(), 0, "count 0: expected at least 1"),
+        (AnyCount(), 0, "x makes any number, not 0: the nearest is 1"),
     ],
 )
 def test_errors_name_what_is_possible(rule, count, message):

@@ -6,8 +6,8 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+from samplekit import GridStrata, LatinStrata, MinimumDistance, Net, OrthogonalArray
 from samplekit._errors import UsageError
-from samplekit._specs import GridStrata, LatinStrata, MinimumDistance, Net, OrthogonalArray
 from samplekit._specs.point_cells import cell_of, closest_pair, find_uneven_cell
 from samplekit._specs.promise import Cells
 
@@ -97,9 +97,8 @@ def test_a_broken_box_is_named():
     inside = [(points[:, axis] >= low) & (points[:, axis] < high) for axis, (low, high) in enumerate(found.box)]
     assert tuple(np.flatnonzero(inside[0] & inside[1])) == found.points
     assert len(found.points) > 1
-    assert (
-        str(found)
-        == "the elementary interval [0/1, 1/1) x [0/4, 1/4) of dimensions 0, 1 holds 2 points, expected 1 of 4"
+    assert str(found) == (
+        "the cell [0/1, 1/1) x [0/4, 1/4) of dimensions 0, 1 holds 2 points, expected 1; 1 of 4 cells are empty (net)"
     )
 
 
@@ -140,9 +139,10 @@ def test_strata_count_each_set_alone():
     one_a_cell = np.array([[[0.1, 0.6], [0.1, 0.6]]]).transpose(0, 2, 1)
     two_in_one = np.array([[[0.1, 0.2], [0.1, 0.6]]]).transpose(0, 2, 1)
     grid = Cells((0,), (2,))
-    assert find_uneven_cell(one_a_cell, [grid]) is None
-    found = find_uneven_cell(np.concatenate([one_a_cell, two_in_one]), [grid])
-    assert (found.realization, found.place, found.inside.tolist(), found.empty) == (1, (0,), [True, True], 1)
+    assert find_uneven_cell(one_a_cell, [grid], "grid") is None
+    found = find_uneven_cell(np.concatenate([one_a_cell, two_in_one]), [grid], "grid")
+    assert (found.realization, found.axes, found.box, found.points) == (1, (0,), ((0.0, 0.5),), (0, 1))
+    assert str(found).endswith("expected 1; 1 of 2 cells are empty (grid)")
     violation = LatinStrata().find_violation(np.concatenate([one_a_cell, two_in_one]))
     assert (violation.realization, violation.points, violation.axes) == (1, (0, 1), (0,))
     assert violation.box == ((0.0, 0.5),)

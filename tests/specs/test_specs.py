@@ -10,9 +10,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from samplekit._errors import SamplekitError, UsageError
-from samplekit._specs import (
-    API_VERSION,
+from samplekit import (
     AnyCount,
     CommandSpec,
     GridStrata,
@@ -28,8 +26,10 @@ from samplekit._specs import (
     RandomizerSpec,
     SamplerSpec,
     SceneSpec,
-    Strata,
 )
+from samplekit._errors import SamplekitError, UsageError
+from samplekit._specs import Strata
+from samplekit._specs.declaration import API_VERSION
 
 KINDS = [SamplerSpec, RandomizerSpec, SceneSpec, CommandSpec]
 
@@ -50,9 +50,9 @@ def test_names_of_lower_case_digits_and_dashes_are_taken(name):
 )
 def test_other_names_are_refused(name):
     for kind in KINDS:
-        with pytest.raises(ValueError, match="bad name"):
+        with pytest.raises(ValueError, match="name must be of the form"):
             kind(name, "a:b", "")
-    with pytest.raises(ValueError, match="bad option name"):
+    with pytest.raises(ValueError, match="name must be of the form"):
         Option(name, 1)
 
 
@@ -65,7 +65,7 @@ def test_targets_name_a_module_and_an_attribute(target):
     "target", ["", "toys", "toys:", ":Toy", "toys:Toy:x", "toys:a.b", "a b:c", "1a:b", "a/b:c", None, 5]
 )
 def test_other_targets_are_refused(target):
-    with pytest.raises(ValueError, match="bad target"):
+    with pytest.raises(ValueError, match="target must be of the form"):
         SceneSpec("toy", target, "")
 
 

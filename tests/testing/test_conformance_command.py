@@ -64,7 +64,7 @@ def test_a_broken_promise_is_status_3_with_a_page(samplekit_here, tmp_path):
     assert result.returncode == 3
     strata = lines_of(result)["strata"]
     assert "failed" in strata
-    assert "[0/2, 1/2) of dimensions 0 holds 2 points, expected 1" in strata
+    assert "[0/2, 1/2) of dimension 0 holds 2 points, expected 1" in strata
     assert re.search(r"sampler not-latin, count 2, dims 1, seed 0, realisation \d+: point 0 at \(", strata)
     text = page.read_text()
     assert "<svg" in text

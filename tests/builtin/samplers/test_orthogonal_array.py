@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import samplekit
+from samplekit import LatinStrata, OrthogonalArray, PrimePowers
 from samplekit._bases.realizations import Realizations
-from samplekit._specs import LatinStrata, OrthogonalArray, PrimePowers
 
 REALIZATIONS = 100
 STYLES = ("jittered", "multi-jittered", "correlated")

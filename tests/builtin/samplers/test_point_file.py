@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import samplekit
+from samplekit import Exactly
 from samplekit._bases.realizations import Realizations
 from samplekit._builtin.samplers.point_file import row_step
 from samplekit._errors import SamplekitError, UsageError
-from samplekit._specs import Exactly
 from samplekit.files._pointsets.formats import write_points
 
 SETS = np.random.default_rng(8).random((5, 12, 3))
