@@ -10,7 +10,6 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import threading
 import time
 from pathlib import Path
 
@@ -20,11 +19,11 @@ for name in ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS"):
 
 import ducc0  # noqa: E402
 import numpy as np  # noqa: E402
-from samplekit_spectrum.expectation import View, _block, _Work  # noqa: E402
+from samplekit_spectrum.expectation import Projection, SharedState, block_moments  # noqa: E402
 from samplekit_spectrum.frequencies import Cube  # noqa: E402
 from samplekit_spectrum.moments import Moments  # noqa: E402
-from samplekit_spectrum.sets import Source  # noqa: E402
-from samplekit_spectrum.transform import PRECISION, by_products, few_points, of_pair, slabs  # noqa: E402
+from samplekit_spectrum.point_sets import Source  # noqa: E402
+from samplekit_spectrum.transform import PRECISION, few_points, nufft_pair, product_slab, slabs  # noqa: E402
 
 import samplekit  # noqa: E402
 
@@ -102,13 +101,12 @@ def bare(coordinates, strengths, reach):
 def ours(count, reach, realizations):
     """CPU seconds of a realisation, in a block as threads get them: points, transform, means, rings."""
     source = Source(samplekit.sampler("random"), count, 2, 0)
-    view = View((0, 1), Cube(2, reach))
-    rings = [view.frequencies.rings()]
+    projection = Projection((0, 1), Cube(2, reach))
+    rings = [projection.frequencies.rings()]
     total = Moments(rings[0])
 
     def block():
-        work = _Work(threading.Event(), threading.Lock())
-        total.merge(_block(source, [view], rings, 0, realizations, work)[0])
+        total.merge(block_moments(source, [projection], rings, 0, realizations, SharedState())[0])
 
     return best(block, least=0.0) / realizations
 
@@ -159,8 +157,8 @@ def main():
         line = []
         for n in (16, 64, 128, 256, 512):
             sets = rng.random((2, 2, n))
-            products = best(lambda c=cube, s=sets: [by_products(lambda: [s], c, slab) for slab in slabs(c)])
-            nufft = best(lambda c=cube, s=sets: of_pair(lambda: [s], c))
+            products = best(lambda c=cube, s=sets: [product_slab(s, c, slab) for slab in slabs(c)])
+            nufft = best(lambda c=cube, s=sets: nufft_pair(s, c))
             line.append(f"N={n}: {products / nufft:.2f}{'*' if few_points(cube, n) else ''}")
         print(f"  F={f:<5}" + "  ".join(line))
     print("  (* where matrix products are chosen)")

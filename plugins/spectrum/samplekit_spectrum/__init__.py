@@ -1,31 +1,19 @@
-"""Power spectra of samplers and the variance that they predict: the declarations.
+"""Power spectra of samplers, and the variance that they predict.
 
-Nothing here imports NumPy; ``power`` and ``predict`` are loaded when they are first used.
+Importing this package does not import NumPy: ``power`` and ``predict`` are loaded when they are first used.
 """
 
-from __future__ import annotations
-
-import importlib
-from typing import TYPE_CHECKING, Any
+import lazy_loader
 
 from samplekit import CommandSpec, hookimpl
 
-if TYPE_CHECKING:
-    from samplekit_spectrum.prediction import predict
-    from samplekit_spectrum.spectrum import Spectrum, power
-
-__all__ = ["Spectrum", "power", "predict"]
-
-_MODULE_OF = {
-    "Spectrum": "samplekit_spectrum.spectrum",
-    "power": "samplekit_spectrum.spectrum",
-    "predict": "samplekit_spectrum.prediction",
-}
+# Not __dir__: it would hide the hook below from samplekit.
+__getattr__, _, __all__ = lazy_loader.attach_stub(__name__, __file__)
 
 
 @hookimpl
 def samplekit_commands() -> list[CommandSpec]:
-    """The commands ``spectrum`` and ``predict``."""
+    """Declare the commands ``spectrum`` and ``predict``."""
     return [
         CommandSpec(
             "spectrum",
@@ -40,9 +28,3 @@ def samplekit_commands() -> list[CommandSpec]:
             reference="Pilleboue et al. 2015; Singh, Jarosz 2017",
         ),
     ]
-
-
-def __getattr__(name: str) -> Any:
-    if name not in _MODULE_OF:
-        raise AttributeError(f"module 'samplekit_spectrum' has no attribute {name!r}")
-    return getattr(importlib.import_module(_MODULE_OF[name]), name)

@@ -1,7 +1,8 @@
-"""The test for bias: an unbiased sampler has a mean of S(m) of zero at every integer m except 0.
+"""The test for bias: for an unbiased sampler, the mean of S(m) is zero at every integer m except 0.
 
-The mean of an estimate is the sum of f(m) conj E S(m): it is the integral for every integrand if and only if E S(m) = 0
-for all m other than 0 (Subr, Kautz 2013). Between the integers E S(m) is then the transform of the unit square.
+The mean of an estimate is the sum of f(m) conj E S(m). It equals the integral for every integrand if and only if
+E S(m) = 0 for all m other than 0 (Subr, Kautz 2013). Between the integers E S(m) is then the transform of the unit
+square.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit_spectrum.frequencies import Frequencies, Listed
+from samplekit_spectrum.frequencies import Cube, Frequencies
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -20,9 +21,9 @@ if TYPE_CHECKING:
 
 FALSE_ALARM = 1e-3
 _FEWEST = 16
-"""Realisations below which nothing is said."""
-
+"""Smallest number of realisations for which the test is made."""
 _ZERO = 1e-9
+"""Amplitudes up to this size are caused by rounding."""
 
 
 @dataclass(frozen=True)
@@ -34,14 +35,15 @@ class Bias:
     verdict
         ``"none found"``, ``"biased"``, or ``"too few realizations"``.
     frequency, amplitude, standard_error
-        There |E S(m)| / N and its standard error; of a sampler that is not random the error is 0.
+        That frequency, |E S(m)| / N at it, and its standard error, which is 0 for a sampler that is not random.
     score, threshold
-        |E S(m)|^2 over its expectation for an unbiased sampler, and the value that an unbiased sampler exceeds anywhere
-        with a probability of at most 1e-3: that of Student's t squared, for the number of frequencies.
+        |E S(m)|^2 over its expectation for an unbiased sampler; and the value that the largest score of an unbiased
+        sampler exceeds with a probability of at most 1e-3: a quantile of the square of Student's t, for the number of
+        frequencies.
     root_mean_square
-        Over all frequencies: of |E S(m)| less what its errors give by themselves.
+        Root of the mean of |E S(m)|^2 over all frequencies, less the part that random errors contribute.
 
-    Between integer frequencies |E S(m)| stands for what E S(m) differs by from the transform of the unit square.
+    Between integer frequencies, |E S(m)| stands for the difference of E S(m) from the transform of the unit square.
     """
 
     verdict: str
@@ -53,34 +55,32 @@ class Bias:
     root_mean_square: float
 
 
-def find_bias(frequencies: Frequencies, moments: Moments, *, randomized: bool = True) -> Bias:
-    """Look for a frequency, DC excepted, at which the mean amplitude is not zero."""
+def find_bias(frequencies: Frequencies, moments: Moments, *, randomized: bool) -> Bias:
+    """Find the frequency other than DC at which the mean amplitude is most significant."""
     from scipy.stats import f as fisher
 
-    realizations = moments.realizations
-    start = 0 if isinstance(frequencies, Listed) else 1
+    freedom = moments.realizations - 1
+    if randomized and moments.realizations < _FEWEST:
+        return Bias("too few realizations", (0.0,) * frequencies.dims, np.nan, np.nan, np.nan, np.nan, np.nan)
+    start = 1 if isinstance(frequencies, Cube) else 0
     amplitude = moments.amplitude[start:]
-    squared = np.abs(amplitude - _of_square(frequencies)[start:]) ** 2
-    if not randomized:
+    squared = np.abs(amplitude - _unit_square_transform(frequencies)[start:]) ** 2
+    if randomized:
+        variance = np.maximum(moments.mean[start:] - np.abs(amplitude) ** 2, 0.0) / freedom
+        # On the zeros of a net both are 0 up to rounding, and rounding must not look significant.
+        noise = _ZERO**2
+        score = np.where(squared <= noise, 0.0, squared / np.maximum(variance, noise * 1e-6))
+        worst = int(np.argmax(score))
+        # A real S(m) has a heavier tail than a complex one: that of the square of Student's t.
+        threshold = float(fisher.isf(FALSE_ALARM / squared.size, 1, freedom))
+    else:
+        variance = np.zeros(squared.size)
+        score = np.where(np.sqrt(squared) > _ZERO, np.inf, 0.0)
         worst = int(np.argmax(squared))
-        size = float(np.sqrt(squared[worst]))
-        verdict = "biased" if size > _ZERO else "none found"
-        vector = _vector(frequencies, worst + start)
-        rms = float(np.sqrt(squared.mean()))
-        return Bias(verdict, vector, size, 0.0, np.inf if size > _ZERO else 0.0, 0.0, rms)
-    if realizations < _FEWEST or squared.size == 0:
-        nothing = (0.0,) * frequencies.dims
-        return Bias("too few realizations", nothing, np.nan, np.nan, np.nan, np.nan, np.nan)
-    variance = np.maximum(moments.mean[start:] - np.abs(amplitude) ** 2, 0.0) / (realizations - 1)
-    # Where the amplitude is certain to rounding, as on the zeros of a net, rounding is all that is left of it.
-    certain = _ZERO**2
-    score = np.where(squared <= certain, 0.0, squared / np.maximum(variance, certain * 1e-6))
-    worst = int(np.argmax(score))
-    # A real S(m) has the heavier tail: Student's t squared.
-    threshold = float(fisher.isf(FALSE_ALARM / squared.size, 1, realizations - 1))
+        threshold = 0.0
     return Bias(
         "biased" if score[worst] > threshold else "none found",
-        _vector(frequencies, worst + start),
+        tuple(frequencies.values(worst + start, worst + start + 1)[0].tolist()),
         float(np.sqrt(squared[worst])),
         float(np.sqrt(variance[worst])),
         float(score[worst]),
@@ -89,20 +89,10 @@ def find_bias(frequencies: Frequencies, moments: Moments, *, randomized: bool = 
     )
 
 
-def _of_square(frequencies: Frequencies) -> NDArray[np.complex128]:
-    """The integral of exp(-2 pi i m.x) over the unit square (cube): 0 at integers but 0."""
-    if isinstance(frequencies, Listed):
-        vectors = np.asarray(frequencies.vectors, np.float64)
-    elif float(frequencies.step).is_integer():
-        total = np.zeros(frequencies.half, np.complex128)
-        total[0] = 1.0
-        return total
-    else:
-        vectors = np.asarray(frequencies.step * frequencies.vectors(0, frequencies.half), np.float64)
+def _unit_square_transform(frequencies: Frequencies) -> NDArray[np.complex128]:
+    """Return the integral of exp(-2 pi i m.x) over the unit square (or cube): 0 at all integers other than 0."""
+    if isinstance(frequencies, Cube) and frequencies.step.is_integer():
+        # DC, which is entry 0, is not tested.
+        return np.zeros(frequencies.half, np.complex128)
+    vectors = frequencies.values(0, frequencies.half)
     return np.asarray(np.prod(np.sinc(vectors) * np.exp(-1j * np.pi * np.fmod(vectors, 2.0)), axis=1), np.complex128)
-
-
-def _vector(frequencies: Frequencies, index: int) -> tuple[float, ...]:
-    if isinstance(frequencies, Listed):
-        return tuple(float(c) for c in frequencies.vectors[index])
-    return tuple(float(c) * frequencies.step for c in frequencies.vectors(index, index + 1)[0])

@@ -1,4 +1,4 @@
-"""The regular grid: its power is 1 on the multiples of the grid's sides, and 0 elsewhere."""
+"""The variance on a regular grid, whose power is 1 on the multiples of the grid's sides, and 0 elsewhere."""
 
 from __future__ import annotations
 
@@ -15,27 +15,27 @@ _SQUARE, _AXIS = 1024, 2**18
 
 
 def variance_on_grid(integrand: Integrand, count: int) -> tuple[float, float]:
-    """The sum of |f(m)|^2 over the dual lattice, and what its outermost half added: about what is still missing.
+    """Return the sum of |f(m)|^2 over the dual lattice, and the part of its outer half: about what is still missing.
 
-    Coefficients of an integrand with jumps fall as |m|^-3 or, along the axes, as m^-2: what lies beyond a cut is
-    about as much as what lies between half of it and itself.
+    The |f(m)|^2 of an integrand with jumps fall as |m|^-3 or, along the axes, as m^-2. So the sum beyond the largest
+    frequency is about as large as the sum between half of that frequency and the frequency itself.
     """
     sides = grid_sides(count, 2)
     assert sides is not None
     most = integrand.reach or 2**62
     square, axis = min(_SQUARE, most // sides[0]), min(_AXIS, most // sides[0])
     total, outer = 0.0, 0.0
-    x = np.arange(-square, square + 1)
+    k = np.arange(-square, square + 1)
+    x = k[k != 0]
     for y in range(1, square + 1):
-        # One row and its mirror image; the axis y = 0 follows.
-        powers = 2.0 * integrand.power(sides[0] * x[x != 0], np.full(2 * square, sides[1] * y))
+        # A row and its mirror image. The axes follow.
+        powers = 2.0 * integrand.power(sides[0] * x, np.full_like(x, sides[1] * y))
         total += float(powers.sum())
-        outer += float(powers[np.abs(x[x != 0]) > square // 2].sum()) if 2 * y <= square else float(powers.sum())
+        outer += float(powers[(2 * y > square) | (np.abs(x) > square // 2)].sum())
     k = np.arange(1, axis + 1)
-    for powers in (
-        2.0 * integrand.power(sides[0] * k, np.zeros_like(k)),
-        2.0 * integrand.power(np.zeros_like(k), sides[1] * k),
-    ):
+    zero = np.zeros_like(k)
+    for mx, my in ((sides[0] * k, zero), (zero, sides[1] * k)):
+        powers = 2.0 * integrand.power(mx, my)
         total += float(powers.sum())
         outer += float(powers[axis // 2 :].sum())
     return total, outer

@@ -1,8 +1,8 @@
-"""The spectrum of an error image: whether a rendering's error is white, or pushed to high frequencies (blue).
+"""The spectrum of an error image: whether a rendering's error is white, or concentrated at high frequencies (blue).
 
-Errors of equal size look the smaller the higher their frequencies (Georgiev, Fajardo 2016, "Blue-noise dithered
-sampling"). Errors that are independent from pixel to pixel have a flat expected spectrum, also where some pixels err
-more than others.
+Among errors of equal size, those of higher frequencies are less visible (Georgiev, Fajardo 2016, "Blue-noise dithered
+sampling"). Errors that are independent from pixel to pixel have a flat expected spectrum, even if some pixels have
+larger errors than others.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from samplekit import SamplekitError, UsageError
-from samplekit_spectrum.radial import Radial
+from samplekit_spectrum.radial import Radial, anisotropy
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -28,6 +28,7 @@ LOW = 0.125
 """Cycles per pixel below which a frequency counts as low: a quarter of the highest."""
 
 _SIGNIFICANT = 4.0
+"""Number of standard errors from which a difference from white counts."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,15 +40,15 @@ class ErrorSpectrum:
     power
         float64[h, w], DC in the middle and NaN: the power over its mean over all other frequencies.
     radial
-        Its mean over rings, frequencies in cycles per pixel; standard errors from the spread over each ring, as if all
-        pixels erred alike.
+        Its mean over rings, with frequencies in cycles per pixel. The standard errors come from the spread over each
+        ring, which assumes that the errors of all pixels are equally large.
     low, low_standard_error
-        The mean below 0.125 cycles per pixel; its standard error allows for pixels that err more than others.
+        The mean below 0.125 cycles per pixel. Its standard error allows for pixels with larger errors than others.
     bias, rmse
         The image's mean, and the root of its mean square.
     verdict
-        ``"blue"``, ``"white"``, ``"red"`` (low frequencies stand out), ``"exact"`` (no error but perhaps a constant),
-        or ``"too small"``.
+        ``"blue"``, ``"white"``, ``"red"`` (low frequencies are too strong), ``"exact"`` (no error, or the same error
+        everywhere), or ``"too small"`` (fewer than 32 low frequencies).
     """
 
     power: NDArray[np.float64]
@@ -66,7 +67,7 @@ class ErrorSpectrum:
         ax
             The axes of matplotlib to draw on; None: a new figure.
         title
-            Stands above a new figure; by default the verdict.
+            Title of a new figure; by default the verdict.
         """
         from samplekit_spectrum.map_display import MapDisplay
 
@@ -82,7 +83,7 @@ class ErrorSpectrum:
         axes
             Two of them, for both. None: a new figure.
         title
-            Stands above a new figure; by default the verdict.
+            Title of a new figure; by default the verdict.
         """
         from samplekit_spectrum.radial_display import RadialDisplay
 
@@ -90,14 +91,14 @@ class ErrorSpectrum:
 
 
 def read_error(path: Path) -> NDArray[np.float64]:
-    """The part ``error`` of an EXR file.
+    """Read the part ``error`` of an EXR file.
 
     Raises
     ------
     UsageError
-        No such file, or it has no such part.
+        There is no such file, or it has no such part.
     SamplekitError
-        It is damaged.
+        The file is damaged.
     """
     from samplekit.files import read_parts
 
@@ -108,14 +109,14 @@ def read_error(path: Path) -> NDArray[np.float64]:
 
 
 def error_spectrum(error: ArrayLike) -> ErrorSpectrum:
-    """The spectrum of an error image float64[h, w] or float64[h, w, 3]; of three channels the mean of their powers.
+    """Compute the spectrum of an error image float64[h, w] or float64[h, w, 3], where channels share a mean power.
 
     Raises
     ------
     UsageError
-        Another shape, or fewer than 2 pixels along a side.
+        The image has another shape, or fewer than 2 pixels along a side.
     SamplekitError
-        An error that is not finite.
+        An error is not finite.
     """
     from scipy import fft
 
@@ -129,54 +130,56 @@ def error_spectrum(error: ArrayLike) -> ErrorSpectrum:
         raise SamplekitError("the error image holds values that are not finite: it has no spectrum")
     height, width, _ = channels.shape
     means = channels.mean(axis=(0, 1))
-    # Scaled first, so that squares neither overflow nor vanish.
+    # The deviations are scaled, so that their squares neither overflow nor vanish.
     size = float(np.abs(channels - means).max())
     deviations = (channels - means) / (size or 1.0)
     power = (np.abs(fft.fft2(deviations, axes=(0, 1))) ** 2).mean(axis=2)
     power[0, 0] = 0.0
-    exact = size <= 1e-15 * float(np.abs(means).max()) or size == 0.0
+    exact = size <= 1e-15 * float(np.abs(means).max())
     power *= (height * width - 1) / power.sum() if not exact else 0.0
-    y, x = fft.fftfreq(height)[:, None], fft.fftfreq(width)
-    radius = np.hypot(x, y)
-    rings = _rings(power, radius, min(height, width))
-    # Half of the frequencies are mirror images of the others.
-    low = power[(radius < LOW) & (radius > 0.0)]
-    mean = float(low.mean()) if low.size else float("nan")
-    spread = _spread(deviations, (radius < LOW) & (radius > 0.0)) if low.size and not exact else float("nan")
-    verdict = "exact" if exact else _verdict(mean, spread, low.size)
+    radius = np.hypot(fft.fftfreq(height)[:, None], fft.fftfreq(width))
+    low = (radius < LOW) & (radius > 0.0)
+    frequencies = int(np.count_nonzero(low))
+    mean = float(power[low].mean()) if frequencies else float("nan")
+    error = _standard_error(deviations, low) if frequencies and not exact else float("nan")
     shifted = fft.fftshift(power)
     shifted[height // 2, width // 2] = np.nan
     scale = float(np.abs(channels).max()) or 1.0
-    rmse = scale * float(np.sqrt(((channels / scale) ** 2).mean()))
-    return ErrorSpectrum(shifted, rings, mean, spread, float(means.mean()), rmse, verdict)
+    return ErrorSpectrum(
+        shifted,
+        _radial(power, radius, min(height, width)),
+        mean,
+        error,
+        bias=float(means.mean()),
+        rmse=scale * float(np.sqrt(((channels / scale) ** 2).mean())),
+        verdict="exact" if exact else _verdict(mean, error, frequencies),
+    )
 
 
-def _rings(power: NDArray[np.float64], radius: NDArray[np.float64], side: int) -> Radial:
-    """Rings a frequency wide, up to the highest that has all directions."""
-    number = np.floor(radius * side + 0.5).astype(np.int64)
+def _radial(power: NDArray[np.float64], radius: NDArray[np.float64], side: int) -> Radial:
+    """Return the means over rings that are 1 / side wide, up to the highest frequency that has all directions."""
     last = side // 2
-    inside = (number >= 1) & (number <= last)
-    counts = np.maximum(np.bincount(number[inside], minlength=last + 1), 1)
-    mean = np.bincount(number[inside], power[inside], last + 1) / counts
-    deviations = (power - mean[np.minimum(number, last)]) ** 2
-    variance = np.bincount(number[inside], deviations[inside], last + 1) / np.maximum(counts - 1, 1)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        anisotropy = 10.0 * np.log10(variance / mean**2)
+    rings = np.floor(radius * side + 0.5).astype(np.int64).ravel()
+    # Ring 0 is DC and all that lies beyond the last ring.
+    rings[rings > last] = 0
+    counts = np.maximum(np.bincount(rings, minlength=last + 1), 1)
+    mean = np.bincount(rings, power.ravel()) / counts
+    variance = np.bincount(rings, (power.ravel() - mean[rings]) ** 2) / np.maximum(counts - 1, 1)
     return Radial(
         np.arange(1, last + 1) / side,
         counts[1:].astype(np.int64),
         mean[1:],
         np.sqrt(2.0 * variance / counts)[1:],
-        np.where(variance == 0.0, -np.inf, anisotropy)[1:],
+        anisotropy(variance, mean, 0.0)[1:],
     )
 
 
-def _spread(deviations: NDArray[np.float64], low: NDArray[np.bool_]) -> float:
-    """Standard error of the mean power of low frequencies, if errors e are independent but not equally large.
+def _standard_error(deviations: NDArray[np.float64], low: NDArray[np.bool_]) -> float:
+    """Return the standard error of the mean power of low frequencies, for errors e that are independent.
 
-    The power is the sum of beta(i - j) e_i e_j, beta the transform of ``low``: its variance is twice the sum over i
-    and j, not equal, of beta^2 E[e_i^2] E[e_j^2], of which e_i^2 e_j^2 is an unbiased estimate. Channels may depend
-    on each other.
+    They may differ in size. The power is the sum of beta(i - j) e_i e_j with the transform beta of ``low``. Its
+    variance is twice the sum over all different i and j of beta^2 E[e_i^2] E[e_j^2], where e_i^2 e_j^2 is an unbiased
+    estimate of the product of expectations. Channels may depend on each other.
     """
     from scipy import fft
 
@@ -185,16 +188,15 @@ def _spread(deviations: NDArray[np.float64], low: NDArray[np.bool_]) -> float:
     squared_beta[0, 0] = 0.0
     total = 0.0
     for channel in np.moveaxis(deviations, 2, 0):
-        spectrum = np.abs(fft.fft2(channel**2)) ** 2
-        products = fft.ifft2(spectrum).real
+        products = fft.ifft2(np.abs(fft.fft2(channel**2)) ** 2).real
         total += float(np.sqrt(2.0 * max(float((squared_beta * products).sum()), 0.0)))
     mean = pixels * float((deviations**2).sum()) / (pixels - 1)
     return total / float(np.count_nonzero(low)) / mean
 
 
-def _verdict(low: float, spread: float, frequencies: int) -> str:
+def _verdict(low: float, error: float, frequencies: int) -> str:
     if frequencies < 32:
         return "too small"
-    if abs(low - 1.0) <= _SIGNIFICANT * spread:
+    if abs(low - 1.0) <= _SIGNIFICANT * error:
         return "white"
     return "blue" if low < 1.0 else "red"

@@ -1,131 +1,129 @@
-"""The expected spectrum: realisations in blocks, spread over threads, merged in their order.
+"""The expected spectrum: threads transform blocks of realisations, which are merged in their order.
 
-Blocks, and the order in which they are merged, depend on the number of realisations alone, so that results do not
-depend on threads. An interrupt stops every block after its current transform; what is done by then can be kept.
+The blocks and their order depend on the number of realisations alone, so results do not depend on the number of
+threads. An interrupt stops every block after its current transform. What is done by then can be kept.
 """
 
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
-from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+from collections import deque
+from concurrent.futures import ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from samplekit import Realizations, SamplekitError, check_threads
-from samplekit_spectrum.exponentials import add_sums
-from samplekit_spectrum.frequencies import Cube, Frequencies, Listed
+from samplekit import SamplekitError, check_threads
+from samplekit_spectrum.frequencies import Cube, Frequencies
 from samplekit_spectrum.moments import Moments
-from samplekit_spectrum.sets import CHUNK, Sets, Source
-from samplekit_spectrum.transform import LARGEST_WHOLE, Chunks, by_products, few_points, of_pair, of_slab, slabs
+from samplekit_spectrum.point_sets import CHUNK, PointSets, Source
+from samplekit_spectrum.transform import LARGEST_WHOLE, amplitudes, few_points
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
+    from collections.abc import Callable, Sequence
+    from concurrent.futures import Future
 
-Progress = Callable[[int, int], None]
+    import numpy as np
+    from numpy.typing import NDArray
 
 _MOST_BLOCKS = 128
 _LARGEST_BLOCK = 64
 _BATCH_VALUES = 2**21
+_BATCH_AMPLITUDES = 2**22
+"""Coordinates, and amplitudes of a projection, that a thread holds at once if there are few points: 16 and 64 MB."""
 
 
 @dataclass(frozen=True, eq=False)
-class View:
-    """A spectrum of the sets projected on ``axes``, at ``frequencies``; ``weights`` as :class:`Moments` takes them."""
+class Projection:
+    """Which spectrum is computed: that of the sets projected on ``axes``, at ``frequencies``.
+
+    ``weights`` are those of :class:`Moments`.
+    """
 
     axes: tuple[int, ...]
     frequencies: Frequencies
     weights: NDArray[np.float64] | None = None
 
 
-@dataclass
-class _Work:
-    """State that the threads share."""
+class SharedState:
+    """State that the threads share: whether they are to stop, and how many realisations are done."""
 
-    stop: threading.Event
-    lock: threading.Lock
-    done: int = 0
+    def __init__(self) -> None:
+        self.stop = threading.Event()
+        self.done = 0
+        self._lock = threading.Lock()
 
-    def tick(self, realizations: int) -> None:
-        with self.lock:
+    def add(self, realizations: int) -> None:
+        """Count realisations as done."""
+        with self._lock:
             self.done += realizations
 
 
 def expectations(
     source: Source,
-    views: list[View],
+    projections: Sequence[Projection],
     realizations: int,
     *,
     first: int = 0,
     threads: int | None = None,
-    progress: Progress = lambda _, __: None,
+    progress: Callable[[int, int], None] = lambda _, __: None,
     keep_interrupted: bool = False,
 ) -> list[Moments]:
-    """The moments of each view over realisations first to first + realizations.
+    """Return the moments of each projection over realisations first to first + realizations.
 
     Parameters
     ----------
-    source, views
-        Whose spectra, and which.
+    source, projections
+        The sets, which the sampler can make, and the spectra to compute.
     realizations, first
-        How many, and the number of the first.
+        Number of realisations, and the number of the first one.
     threads
-        None: one for each processor. Results do not depend on it.
+        Number of threads; None: one for each processor. Results do not depend on it.
     progress
         Called with the numbers of realisations done and to do.
     keep_interrupted
-        At an interrupt, return the moments of what is done instead of raising, if there is any.
+        If an interrupt arrives and at least one realisation is done, return the moments so far instead of raising.
 
     Raises
     ------
     UsageError
-        The sampler cannot make such sets.
+        The number of threads is out of range.
     SamplekitError
         The sampler failed, or there is too little memory.
     """
-    source.sampler.check(source.count, source.dims)
     blocks = _blocks(first, realizations)
-    workers = min(check_threads(threads), len(blocks))
-    workers = _affordable(workers, source, views)
+    workers = _affordable(min(check_threads(threads), len(blocks)), source, projections)
     source.sampler.prepare(source.count, source.dims)
-    rings = [view.frequencies.rings() for view in views]
-    work = _Work(threading.Event(), threading.Lock())
-    totals = [Moments(ring, view.weights) for ring, view in zip(rings, views, strict=True)]
-    waiting = iter(enumerate(blocks))
-    running: dict[Future[list[Moments]], int] = {}
-    finished: dict[int, list[Moments]] = {}
-    merged = 0
-    interrupted = False
+    rings = [projection.frequencies.rings() for projection in projections]
+    state = SharedState()
+    totals = _moments(projections, rings)
+    waiting = iter(blocks)
+    futures: deque[Future[list[Moments]]] = deque()
     with ThreadPoolExecutor(workers) as pool:
         try:
             while True:
-                # No block is started that would have to wait long for its turn to be merged.
-                while len(running) < workers and (job := next(waiting, None)) is not None:
-                    running[pool.submit(_block, source, views, rings, *job[1], work)] = job[0]
-                if not running:
-                    break
-                ready, _ = wait(running, timeout=0.2, return_when=FIRST_COMPLETED)
-                for future in ready:
-                    finished[running.pop(future)] = future.result()
-                while merged in finished:
-                    _merge(totals, finished.pop(merged))
-                    merged += 1
-                progress(work.done, realizations)
+                # One block more than there are threads, so that no thread waits for a block to be merged.
+                while len(futures) <= workers and (block := next(waiting, None)) is not None:
+                    futures.append(pool.submit(block_moments, source, projections, rings, *block, state))
+                if not futures:
+                    return totals
+                wait([futures[0]], timeout=0.2)
+                while futures and futures[0].done():
+                    _merge(totals, futures.popleft().result())
+                progress(state.done, realizations)
         except KeyboardInterrupt:
-            work.stop.set()
-            interrupted = True
-            for future, number in running.items():
-                finished[number] = future.result()
-            for number in sorted(finished):
-                _merge(totals, finished[number])
-        except BaseException:
-            work.stop.set()
+            state.stop.set()
+            for future in futures:
+                _merge(totals, future.result())
+            if keep_interrupted and totals[0].realizations > 0:
+                return totals
             raise
-    if interrupted and not (keep_interrupted and totals[0].realizations > 0):
-        raise KeyboardInterrupt
-    return totals
+        except BaseException:
+            state.stop.set()
+            raise
+
+
+def _moments(projections: Sequence[Projection], rings: list[NDArray[np.int32]]) -> list[Moments]:
+    return [Moments(ring, projection.weights) for ring, projection in zip(rings, projections, strict=True)]
 
 
 def _merge(totals: list[Moments], block: list[Moments]) -> None:
@@ -134,27 +132,27 @@ def _merge(totals: list[Moments], block: list[Moments]) -> None:
 
 
 def _blocks(first: int, realizations: int) -> list[tuple[int, int]]:
-    """Ranges of realisations: an even number in each, so that they pair up."""
-    # A merge costs a few passes over the means: blocks are as long as they can be and still keep some threads busy.
+    """Divide the realisations into ranges, each with an even number of them so that they form pairs."""
+    # A merge costs a few passes over the means, so blocks are as long as they can be while they keep threads busy.
     least = 2 if realizations <= 16 else 4 if realizations <= 64 else 8
     length = min(max(2 * -(-realizations // (2 * _MOST_BLOCKS)), least), _LARGEST_BLOCK)
     stop = first + realizations
     return [(start, min(start + length, stop)) for start in range(first, stop, length)]
 
 
-def _affordable(workers: int, source: Source, views: list[View]) -> int:
-    """As many threads as there is memory for.
+def _affordable(workers: int, source: Source, projections: Sequence[Projection]) -> int:
+    """Return the number of threads for which there is memory, at most ``workers``.
 
     Raises
     ------
     SamplekitError
-        There is too little for one.
+        There is too little memory for one thread.
     """
     import psutil
 
-    kept = 40 * sum(view.frequencies.half for view in views)
-    largest = max((v.frequencies.side * v.frequencies.row for v in views if isinstance(v.frequencies, Cube)), default=0)
-    transform = 80 * min(largest, LARGEST_WHOLE)
+    cubes = [projection.frequencies for projection in projections]
+    kept = 40 * sum(cube.half for cube in cubes)
+    transform = 80 * min(max(cube.size if isinstance(cube, Cube) else 0 for cube in cubes), LARGEST_WHOLE)
     points = 8 * source.dims * 2 * (min(source.count, CHUNK) if source.sampler.streams else source.count) * 4
     available = 0.8 * psutil.virtual_memory().available
     each = kept + transform + points
@@ -166,48 +164,31 @@ def _affordable(workers: int, source: Source, views: list[View]) -> int:
     return max(1, min(workers, int((available - kept) // each)))
 
 
-def _block(
-    source: Source, views: list[View], rings: list[NDArray[np.int32]], start: int, stop: int, work: _Work
+def block_moments(
+    source: Source,
+    projections: Sequence[Projection],
+    rings: list[NDArray[np.int32]],
+    start: int,
+    stop: int,
+    state: SharedState,
 ) -> list[Moments]:
-    block = [Moments(ring, view.weights) for ring, view in zip(rings, views, strict=True)]
-    paired = any(
-        isinstance(view.frequencies, Cube) and not few_points(view.frequencies, source.count) for view in views
-    )
-    batch = 2 if paired else max(2, min(_LARGEST_BLOCK, _BATCH_VALUES // (source.count * source.dims), _widest(views)))
-    for begin in range(start, stop, batch):
-        if work.stop.is_set():
-            break
-        members = min(batch, stop - begin)
-        sets = Sets(source, Realizations.of_trials(begin, begin + members, source.seed))
-        for view, moments in zip(views, block, strict=True):
-            _add(view, moments, sets, members)
-        work.tick(members)
-    return block
-
-
-def _widest(views: list[View]) -> int:
-    """Realisations whose amplitudes fit into 64 MB."""
-    return int(2**22 // max(min(view.frequencies.half, 2**22) for view in views))
-
-
-def _add(view: View, moments: Moments, sets: Sets, members: int) -> None:
-    cube, count = view.frequencies, sets.count
-    if not isinstance(cube, Cube):
-        moments.add([(0, _listed(cube, sets.of(view.axes), members))], members, count, exact_dc=False)
-    elif few_points(cube, count):
-        moments.add(((slab.start, by_products(sets.of(view.axes), cube, slab)) for slab in slabs(cube)), members, count)
-    elif cube.side * cube.row <= LARGEST_WHOLE:
-        moments.add_pair(of_pair(sets.of(view.axes), cube), members, count)
+    """Return the moments of each projection over realisations ``start`` to ``stop``, or over fewer if interrupted."""
+    block = _moments(projections, rings)
+    frequencies = [projection.frequencies for projection in projections]
+    if any(isinstance(cube, Cube) and not few_points(cube, source.count) for cube in frequencies):
+        # The non-uniform FFT transforms pairs.
+        batch = 2
     else:
-        for member in range(members):
-            single = sets.of(view.axes, member)
-            moments.add(((slab.start, of_slab(single, cube, slab)) for slab in slabs(cube)), 1, count)
-
-
-def _listed(frequencies: Listed, chunks: Chunks, members: int) -> NDArray[np.complex128]:
-    sums = np.zeros((members, frequencies.half), np.complex128)
-    for points in chunks():
-        for member in range(members):
-            # Of listed frequencies x comes first.
-            add_sums(frequencies.vectors, np.ascontiguousarray(points[member, ::-1]), sums[member])
-    return sums
+        fitting = _BATCH_AMPLITUDES // max(min(cube.half, _BATCH_AMPLITUDES) for cube in frequencies)
+        batch = max(2, min(_LARGEST_BLOCK, _BATCH_VALUES // (source.count * source.dims), fitting))
+    for begin in range(start, stop, batch):
+        if state.stop.is_set():
+            break
+        end = min(begin + batch, stop)
+        sets = PointSets(source, begin, end)
+        for projection, moments in zip(projections, block, strict=True):
+            cube = projection.frequencies
+            parts = amplitudes(sets, projection.axes, cube)
+            moments.add(parts, end - begin, source.count, exact_dc=isinstance(cube, Cube))
+        state.add(end - begin)
+    return block

@@ -1,7 +1,8 @@
-"""Which frequencies a spectrum is taken at: a cube of multiples of a step, or a list.
+"""The frequencies at which a spectrum is computed: a cube of multiples of a step, or a list.
 
-A spectrum of real strengths is symmetric, S(-m) = conj S(m), so that of a cube only a half is kept: flattened in C
-order with the axes (..., y, x), index 0 is DC and the mirror image of the half's entry i lies i places before DC.
+The spectrum of real strengths is symmetric, S(-m) = conj S(m), so only one half of a cube is kept. If the cube is
+flattened in C order with the axes (..., y, x), the half begins at DC, and entry i of the half is the mirror image of
+the element that lies i places before DC.
 """
 
 from __future__ import annotations
@@ -14,6 +15,8 @@ import numpy as np
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+_BLOCK = 2**20
+
 
 @dataclass(frozen=True)
 class Cube:
@@ -22,9 +25,9 @@ class Cube:
     Attributes
     ----------
     dims, reach
-        Dimensions, 1 to 3; the largest |m|_inf.
+        Number of dimensions, 1 to 3; the largest |m|_inf.
     step
-        Distance of neighbouring frequencies. At 1 the spectrum is the one that variance depends on.
+        Distance of neighbouring frequencies. At 1 the spectrum is the one that determines the variance.
     """
 
     dims: int
@@ -37,76 +40,73 @@ class Cube:
         return 2 * self.reach + 1
 
     @property
+    def size(self) -> int:
+        """Number of frequencies."""
+        return int(self.side**self.dims)
+
+    @property
     def row(self) -> int:
-        """Number of frequencies for each one of the first axis."""
-        return int(self.side ** (self.dims - 1))
+        """Number of frequencies that share one component along the first axis."""
+        return self.size // self.side
 
     @property
     def half(self) -> int:
-        """Number of frequencies that are kept, DC among them."""
-        return (self.side * self.row + 1) // 2
-
-    @property
-    def first(self) -> int:
-        """Place of DC within the middle one of the first axis."""
-        return (self.row - 1) // 2
-
-    def squared_radii(self, start: int, stop: int) -> NDArray[np.int64]:
-        """|m|^2 of the half's entries start to stop, int64."""
-        index = np.arange(start + self.first, stop + self.first, dtype=np.int64)
-        total = np.zeros(index.size, np.int64)
-        for axis in range(self.dims):
-            index, component = np.divmod(index, self.side) if axis < self.dims - 1 else (index, index)
-            offset = component - self.reach if axis < self.dims - 1 else component
-            total += offset * offset
-        return total
+        """Number of frequencies that are kept, including DC."""
+        return (self.size + 1) // 2
 
     def vectors(self, start: int, stop: int) -> NDArray[np.int64]:
-        """M of the half's entries start to stop, x first: int64[stop - start, dims]."""
-        index = np.arange(start + self.first, stop + self.first, dtype=np.int64)
-        components = []
-        for _ in range(self.dims - 1):
-            index, component = np.divmod(index, self.side)
-            components.append(component - self.reach)
-        return np.stack([*components, index], axis=1)
+        """Return m for the entries start to stop of the half: int64[stop - start, dims], x first."""
+        components = np.unravel_index(np.arange(start, stop) + self.half - 1, (self.side,) * self.dims)
+        return (np.stack(components[::-1]) - self.reach).T
+
+    def values(self, start: int, stop: int) -> NDArray[np.float64]:
+        """Return the frequencies step * m of the entries start to stop of the half: float64[stop - start, dims]."""
+        return np.asarray(self.step * self.vectors(start, stop), np.float64)
 
     def rings(self) -> NDArray[np.int32]:
-        """The ring of each entry of the half: k for k - 1/2 <= |m| < k + 1/2; 0 for DC and beyond the reach.
+        """Return the ring of each entry of the half: k for k - 1/2 <= |m| < k + 1/2, and 0 for DC.
 
-        A ring beyond the reach would be cut by the cube: it is left out.
+        The cube cuts the rings beyond the reach, so their entries are 0, too.
         """
         rings = np.empty(self.half, np.int32)
-        block = 1 << 20
-        for start in range(0, self.half, block):
-            stop = min(start + block, self.half)
-            ring = np.floor(np.sqrt(self.squared_radii(start, stop).astype(np.float64)) + 0.5)
-            rings[start:stop] = np.where(ring <= self.reach, ring, 0.0)
+        for start in range(0, self.half, _BLOCK):
+            vectors = self.vectors(start, min(start + _BLOCK, self.half)).astype(np.float64)
+            ring = np.floor(np.sqrt((vectors * vectors).sum(axis=1)) + 0.5)
+            rings[start : start + _BLOCK] = np.where(ring <= self.reach, ring, 0.0)
         return rings
 
     def full(self, half: NDArray[np.float64]) -> NDArray[np.float64]:
-        """The whole cube [..., y, x] of a quantity that m and -m share, from its half."""
+        """Return the whole cube [..., y, x] of a quantity that is the same at m and -m, from its half."""
         return np.concatenate([half[:0:-1], half]).reshape((self.side,) * self.dims)
 
 
 @dataclass(frozen=True, eq=False)
-class Listed:
-    """Any frequencies: float64[K, dims], of magnitude up to 2^40."""
+class FrequencyList:
+    """Arbitrary frequencies: float64[K, dims], of magnitude up to 2^40."""
 
     vectors: NDArray[np.float64]
 
     @property
     def dims(self) -> int:
-        """Dimensions of a frequency."""
+        """Number of dimensions of a frequency."""
         return int(self.vectors.shape[1])
 
     @property
     def half(self) -> int:
-        """Number of frequencies."""
+        """Number of frequencies that are kept: all of them."""
         return int(self.vectors.shape[0])
 
+    def values(self, start: int, stop: int) -> NDArray[np.float64]:
+        """Return the frequencies start to stop: float64[stop - start, dims]."""
+        return self.vectors[start:stop]
+
     def rings(self) -> NDArray[np.int32]:
-        """None of them is on a ring."""
+        """Return zeros: listed frequencies lie on no ring."""
         return np.zeros(self.half, np.int32)
 
+    def full(self, half: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return a copy: nothing is left out of ``half``."""
+        return half.copy()
 
-Frequencies = Cube | Listed
+
+Frequencies = Cube | FrequencyList

@@ -1,4 +1,4 @@
-"""Pictures of spectra: N times the power in grey on a stated scale, one square for each frequency, DC left out."""
+"""Pictures of spectra: N times the power in grey on a stated scale, one square for each frequency, without DC."""
 
 from __future__ import annotations
 
@@ -20,18 +20,18 @@ if TYPE_CHECKING:
     from samplekit_spectrum.spectrum import Spectrum
 
 SCALE = 2.0
-"""N times the power that is drawn white: white noise is in the middle."""
+"""The value of N times the power that is drawn white: white noise, which is 1, is medium grey."""
 
 BEYOND, MISSING = "#f5a623", "#7fa8d9"
-"""Colours of frequencies beyond the scale, and of those that are left out."""
+"""Colours of frequencies whose power is beyond the scale, and of those that are left out."""
 
 _DPI = 200
 _ONE, _SEVERAL, _LARGEST = 720, 360, 1026
-"""Pixels along a panel: about as many for one panel and for each of several, and at most."""
+"""Pixels along a panel: about 720 if it is the only one, about 360 if there are several, and never more than 1026."""
 
 
 class Map(NamedTuple):
-    """One panel.
+    """One panel of a picture.
 
     Attributes
     ----------
@@ -40,11 +40,11 @@ class Map(NamedTuple):
     values
         float64[h, w], axes (y, x): N times the power, NaN where it is left out.
     title, labels
-        What stands above it, and along x and y.
+        The text above the panel, and the labels of the axes x and y.
     extent
         Frequencies at the left, right, lower and upper edge.
     ticks
-        Frequencies that are marked along both axes.
+        Frequencies with a tick on both axes.
     """
 
     place: tuple[int, int]
@@ -58,8 +58,8 @@ class Map(NamedTuple):
 class MapDisplay(Display):
     """A picture of a spectrum over the plane of frequencies, or of several spectra or slices.
 
-    Frequency 0 is in the middle, x goes to the right and y goes down. Grey is proportional to the power. Larger values
-    than the scale are orange, DC is blue.
+    Frequency 0 is in the middle, x goes to the right and y goes down. Grey is proportional to the power. Values larger
+    than the scale are orange; DC, which is left out, is blue.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ class MapDisplay(Display):
     scale
         Power that is drawn white.
     words
-        What the greys stand for, what white noise is, and what is left out.
+        What the greys stand for, what white noise is, and what is left out: three texts.
 
     Attributes
     ----------
@@ -110,9 +110,8 @@ class MapDisplay(Display):
         scale
             N times the power that is drawn white; None: 2.
         """
-        first = spectra[0]
         maps = [one for spectrum in spectra for one in _maps(spectrum, several=len(spectra) > 1)]
-        return cls(maps, headline_of(first), condition_of(first), SCALE if scale is None else scale)
+        return cls(maps, headline(spectra[0]), condition(spectra[0]), SCALE if scale is None else scale)
 
     @classmethod
     def from_error(cls, spectrum: ErrorSpectrum, title: str) -> MapDisplay:
@@ -160,7 +159,7 @@ class MapDisplay(Display):
             panel.set_box_aspect(one.values.shape[0] / one.values.shape[1])
             panel.set(xlabel=one.labels[0], ylabel=one.labels[1], xticks=one.ticks, yticks=one.ticks)
             panel.set_title(one.title)
-        # Beside the panel at the right end of the last row is room.
+        # There is room for the bar beside the panel at the right end of the last row.
         last = max(range(len(self.maps)), key=lambda number: self.maps[number].place)
         extend = "max" if self.facts["beyond"] else "neither"
         add_bar(self.axes_[last], image, self._words[0], [0.0, scale / 2.0, scale], extend)
@@ -169,7 +168,7 @@ class MapDisplay(Display):
     def _new_axes(self) -> tuple[Figure, list[Axes]]:
         several = len(self.maps) > 1
         rows, columns = (-(-side // int(self.facts["reduced"])) for side in self.maps[0].values.shape)
-        # A frequency is a square of whole pixels of the file.
+        # Each frequency is a square of whole pixels of the file.
         factor = max(1, round((_SEVERAL if several else _ONE) / max(rows, columns))) / _DPI
         above = 0.25 if any(one.title for one in self.maps) else 0.1
         return make_axes(
@@ -192,23 +191,27 @@ class MapDisplay(Display):
         ]
 
 
-def headline_of(spectrum: Spectrum) -> str:
-    """Say which sets the spectrum is of."""
-    points = "1 point" if spectrum.count == 1 else f"{spectrum.count} points"
-    return f"{spectrum.sampler}, {points}"
+def headline(spectrum: Spectrum) -> str:
+    """Return the title of a picture: the sampler and the number of points."""
+    return f"{spectrum.sampler}, {counted(spectrum.count, 'point')}"
 
 
-def condition_of(spectrum: Spectrum) -> str:
-    """Say how many sets the mean is over."""
+def condition(spectrum: Spectrum) -> str:
+    """Return the second line of a picture: the number of sets in the mean."""
     if not spectrum.randomized:
         return "one set: it is not random"
-    sets = "1 realization" if spectrum.realizations == 1 else f"{spectrum.realizations} realizations"
-    return f"mean of {sets}" + (f", interrupted: {spectrum.requested} were asked for" if spectrum.interrupted else "")
+    interrupted = f", interrupted: {spectrum.requested} were asked for" if spectrum.interrupted else ""
+    return f"mean of {counted(spectrum.realizations, 'realization')}{interrupted}"
+
+
+def counted(number: int, noun: str) -> str:
+    """Return the number with its noun, such as "1 point" or "2 points"."""
+    return f"{number} {noun}" + "s" * (number != 1)
 
 
 def slice_numbers(reach: int) -> list[int]:
-    """Choose up to six slices of a cube: 0, 1, 2, 4, ... and the last."""
-    numbers = [0, *(2**power for power in range(reach.bit_length()) if 2**power <= reach)]
+    """Choose up to six slices of a cube: 0 and powers of 2, up to the largest within the reach."""
+    numbers = [0, *(2**power for power in range(reach.bit_length()))]
     return numbers if len(numbers) <= 6 else [0, 1, *numbers[-4:]]
 
 
@@ -238,17 +241,15 @@ def _maps(spectrum: Spectrum, *, several: bool) -> list[Map]:
 
 
 def _edges(side: int) -> tuple[float, float]:
-    """Frequencies at both edges of ``side`` pixels that hold those of a Fourier transform, DC in the middle."""
+    """Return the frequencies at both edges of a discrete spectrum of ``side`` frequencies, with DC in the middle."""
     return (-(side // 2) - 0.5) / side, (side - side // 2 - 0.5) / side
 
 
 def _reduced(values: NDArray[np.float64], block: int) -> NDArray[np.float64]:
-    """Take the means of square blocks of the values that are there."""
+    """Return the means over square blocks, without NaNs; the last blocks may be cut off."""
     if block == 1:
         return values
-    padded = [-(-size // block) * block for size in values.shape]
-    full = np.full(padded, np.nan)
-    full[: values.shape[0], : values.shape[1]] = values
-    blocks = full.reshape(padded[0] // block, block, padded[1] // block, block)
-    present = np.isfinite(blocks)
-    return np.asarray(np.where(present, blocks, 0.0).sum(axis=(1, 3)) / np.maximum(present.sum(axis=(1, 3)), 1))
+    height, width = values.shape
+    padded = np.pad(values, ((0, -height % block), (0, -width % block)), constant_values=np.nan)
+    blocks = padded.reshape(padded.shape[0] // block, block, padded.shape[1] // block, block)
+    return np.asarray(np.nanmean(blocks, axis=(1, 3)))

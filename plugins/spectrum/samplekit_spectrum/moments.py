@@ -19,44 +19,37 @@ if TYPE_CHECKING:
 
 
 class Moments:
-    """Means over realisations at each frequency of a half, and of the mean over each ring.
+    """Means over realisations of the power at each frequency of a half, and of the power's mean over each ring.
 
     Attributes
     ----------
     realizations
-        How many have been added.
+        Number of realisations that have been added.
+    rings, ring_counts
+        int32[half], float64[rings + 1]: the ring of each frequency; the number of the half's frequencies on each ring.
     mean, squares
         float64[half]: the mean of |S|^2 / N^2, and the sum of its squared deviations.
     amplitude
         complex128[half]: the mean of S / N.
     ring_mean, ring_squares
-        float64[rings + 1]: the same of each ring's mean; entry 0 has no meaning.
+        float64[rings + 1]: the same for the mean over each ring; entry 0 has no meaning.
     totals
-        For each realisation the sum of weights times power over the half, if there are weights.
+        The sum of weights times power over the half, for each realisation; empty without weights.
     """
 
     def __init__(self, rings: NDArray[np.int32], weights: NDArray[np.float64] | None = None) -> None:
         half = rings.size
-        self._rings = rings
-        self._counts = ring_counts(rings)
+        self.rings = rings
+        # 1 where a ring is empty, so that sums can be divided by it.
+        self.ring_counts = np.maximum(np.bincount(rings, minlength=1), 1).astype(np.float64)
         self._weights = np.empty(0) if weights is None else weights
         self.realizations = 0
         self.mean = np.zeros(half)
         self.squares = np.zeros(half)
         self.amplitude = np.zeros(half, np.complex128)
-        self.ring_mean = np.zeros(self._counts.size)
-        self.ring_squares = np.zeros(self._counts.size)
+        self.ring_mean = np.zeros(self.ring_counts.size)
+        self.ring_squares = np.zeros(self.ring_counts.size)
         self.totals: list[float] = []
-
-    def add_pair(self, mixed: NDArray[np.complex128], members: int, count: int) -> None:
-        """Add two realisations from one transform with strengths 1 and i, ``mixed`` complex128[side^dims]; or one."""
-        sums, totals = np.zeros((2, self.ring_mean.size)), np.zeros(2)
-        before = self.realizations
-        _add_pair(
-            mixed, 1.0 / count, before, members, self.mean, self.squares, self.amplitude,
-            self._rings, sums, self._weights, totals,
-        )  # fmt: skip
-        self._finish(sums[:members], totals[:members])
 
     def add(
         self,
@@ -66,33 +59,28 @@ class Moments:
         *,
         exact_dc: bool = True,
     ) -> None:
-        """Add realisations whose S is given in parts: (first entry, complex128[members, entries]).
+        """Add realisations of ``count`` points, given S in parts: the first entry, and complex128[members, entries].
 
-        ``exact_dc``: entry 0 is DC, where the sum of N ones is N, and not what a transform gives.
+        ``exact_dc``: entry 0 is DC, where S is exactly ``count``, whatever rounding makes of it.
         """
-        sums, totals = np.zeros((members, self.ring_mean.size)), np.zeros(members)
+        ring_sums, totals = np.zeros((members, self.ring_mean.size)), np.zeros(members)
         for start, amplitudes in parts:
-            stop = start + amplitudes.shape[1]
-            weights = self._weights[start:stop] if self._weights.size else self._weights
+            part = slice(start, start + amplitudes.shape[1])
             _add(
                 np.ascontiguousarray(amplitudes), exact_dc and start == 0, 1.0 / count, self.realizations,
-                self.mean[start:stop], self.squares[start:stop], self.amplitude[start:stop],
-                self._rings[start:stop], sums, weights, totals,
+                self.mean[part], self.squares[part], self.amplitude[part], self.rings[part], ring_sums,
+                self._weights[part], totals,
             )  # fmt: skip
-        self._finish(sums, totals)
-
-    def _finish(self, sums: NDArray[np.float64], totals: NDArray[np.float64]) -> None:
-        for ring_sums, total in zip(sums, totals, strict=True):
+        for ring_means in ring_sums / self.ring_counts:
             self.realizations += 1
-            means = ring_sums / self._counts
-            deviations = means - self.ring_mean
+            deviations = ring_means - self.ring_mean
             self.ring_mean += deviations / self.realizations
-            self.ring_squares += deviations * (means - self.ring_mean)
-            if self._weights.size:
-                self.totals.append(float(total))
+            self.ring_squares += deviations * (ring_means - self.ring_mean)
+        if self._weights.size:
+            self.totals += totals.tolist()
 
     def merge(self, other: Moments) -> None:
-        """Add the realisations of another, which come after these."""
+        """Add the realisations of ``other``, which follow those of this object."""
         ours, theirs = self.realizations, other.realizations
         if theirs == 0:
             return
@@ -110,75 +98,19 @@ class Moments:
 
     @property
     def standard_error(self) -> NDArray[np.float64]:
-        """Standard error of the mean power at each frequency, float64[half]; NaN with a single realisation."""
+        """Standard error of the mean power at each frequency, float64[half]; NaN if there is only one realisation."""
         return _standard_error(self.squares, self.realizations)
 
     @property
     def ring_standard_error(self) -> NDArray[np.float64]:
-        """Standard error of the mean power of each ring, float64[rings]; NaN with a single realisation."""
+        """Standard error of the mean power of each ring, float64[rings + 1]; NaN if there is only one realisation."""
         return _standard_error(self.ring_squares, self.realizations)
-
-
-def ring_counts(rings: NDArray[np.int32]) -> NDArray[np.float64]:
-    """Number of the half's frequencies on each ring; 1 where there is none, so that it may divide."""
-    return np.maximum(np.bincount(rings, minlength=1), 1).astype(np.float64)
 
 
 def _standard_error(squares: NDArray[np.float64], realizations: int) -> NDArray[np.float64]:
     if realizations < 2:
         return np.full(squares.shape, np.nan)
     return np.sqrt(squares / (realizations - 1) / realizations)
-
-
-@kernel(
-    "void(complex128[::1], float64, int64, int64, float64[::1], float64[::1], complex128[::1],"
-    " int32[::1], float64[:,::1], float64[::1], float64[::1])"
-)
-def _add_pair(
-    mixed: NDArray[np.complex128],
-    scale: float,
-    before: int,
-    members: int,
-    mean: NDArray[np.float64],
-    squares: NDArray[np.float64],
-    amplitude: NDArray[np.complex128],
-    rings: NDArray[np.int32],
-    sums: NDArray[np.float64],
-    weights: NDArray[np.float64],
-    totals: NDArray[np.float64],
-) -> None:
-    half = mean.size
-    share, next_share = 1.0 / (before + 1.0), 1.0 / (before + 2.0)
-    halved = 0.5 * scale
-    weighted = weights.size > 0
-    for i in range(half):
-        ahead, behind = mixed[half - 1 + i], mixed[half - 1 - i]
-        if members == 2:
-            real, imaginary = halved * (ahead.real + behind.real), halved * (ahead.imag - behind.imag)
-            next_real, next_imaginary = halved * (ahead.imag + behind.imag), halved * (behind.real - ahead.real)
-        else:
-            real, imaginary = scale * ahead.real, scale * ahead.imag
-            next_real, next_imaginary = 0.0, 0.0
-        if i == 0:
-            # The sum of N ones: exact, and not as the transform gives it.
-            real, imaginary, next_real, next_imaginary = 1.0, 0.0, 1.0, 0.0
-        power = real * real + imaginary * imaginary
-        deviation = power - mean[i]
-        mean[i] += deviation * share
-        squares[i] += deviation * (power - mean[i])
-        amplitude[i] += (complex(real, imaginary) - amplitude[i]) * share
-        sums[0, rings[i]] += power
-        if weighted:
-            totals[0] += weights[i] * power
-        if members == 2:
-            power = next_real * next_real + next_imaginary * next_imaginary
-            deviation = power - mean[i]
-            mean[i] += deviation * next_share
-            squares[i] += deviation * (power - mean[i])
-            amplitude[i] += (complex(next_real, next_imaginary) - amplitude[i]) * next_share
-            sums[1, rings[i]] += power
-            if weighted:
-                totals[1] += weights[i] * power
 
 
 @kernel(
@@ -194,7 +126,7 @@ def _add(
     squares: NDArray[np.float64],
     amplitude: NDArray[np.complex128],
     rings: NDArray[np.int32],
-    sums: NDArray[np.float64],
+    ring_sums: NDArray[np.float64],
     weights: NDArray[np.float64],
     totals: NDArray[np.float64],
 ) -> None:
@@ -210,6 +142,6 @@ def _add(
             mean[i] += deviation * share
             squares[i] += deviation * (power - mean[i])
             amplitude[i] += (complex(real, imaginary) - amplitude[i]) * share
-            sums[member, rings[i]] += power
+            ring_sums[member, rings[i]] += power
             if weighted:
                 totals[member] += weights[i] * power

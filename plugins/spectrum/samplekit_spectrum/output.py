@@ -1,4 +1,4 @@
-"""The files of a spectrum: STEM.exr with the numbers, pictures, and the radial mean as CSV and plots. All or none."""
+"""Write the files of a spectrum, all or none: STEM.exr with the numbers, pictures, the radial mean as CSV and plots."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from samplekit.files import parts_writer, text_writer, write_stem
 from samplekit.plots import figure_writer
-from samplekit_spectrum.frequencies import Cube, Listed
+from samplekit_spectrum.frequencies import Cube
 from samplekit_spectrum.map_display import MapDisplay
 from samplekit_spectrum.radial_display import RadialDisplay
 from samplekit_spectrum.tables import listed_csv, radial_csv
@@ -27,7 +27,7 @@ RADIAL = (".radial.csv", ".radial.png", ".radial.svg")
 
 
 def endings(dims: int, spectra: int, *, listed: bool) -> tuple[str, ...]:
-    """The endings of the files of such spectra."""
+    """Return the endings of the files that :func:`write_spectra` writes."""
     if listed:
         return (".csv",)
     pictures = MAPS if dims > 1 else MAPS[:1]
@@ -35,13 +35,12 @@ def endings(dims: int, spectra: int, *, listed: bool) -> tuple[str, ...]:
 
 
 def write_spectra(stem: Path, spectra: Sequence[Spectrum], metadata: dict[str, Any], scale: float | None) -> list[Path]:
-    """Write the files of the projections of the same sets."""
+    """Write the files of several projections of the same sets."""
     first = spectra[0]
-    if isinstance(first.frequencies, Listed):
+    if not isinstance(first.frequencies, Cube):
         return write_stem(stem, {".csv": text_writer([listed_csv(spectra)])})
-    cube = first.frequencies
     writers: dict[str, Writer] = {".exr": parts_writer(_parts(spectra), metadata)}
-    if cube.dims > 1:
+    if first.frequencies.dims > 1:
         display = MapDisplay.from_spectra(spectra, scale)
         _add_pictures(writers, display, {**metadata, "picture": display.facts}, [".png"])
     writers[".radial.csv"] = text_writer([radial_csv(spectra)])
@@ -66,20 +65,21 @@ def _add_pictures(
 ) -> None:
     figure = display.plot().figure_
     for ending in endings:
-        writers[ending] = figure_writer(figure, "." + ending.rpartition(".")[2], metadata)
+        writers[ending] = figure_writer(figure, ending.removeprefix(".radial"), metadata)
 
 
 def _parts(spectra: Sequence[Spectrum]) -> dict[str, Any]:
-    """Mean and standard error, a part each; of three dimensions each slice from 0 on, which the others mirror."""
-    parts = {}
+    """Return mean and standard error as parts of an EXR file.
+
+    A spectrum of three dimensions has a part for each slice from 0 on; the other slices are their mirror images.
+    """
+    parts: dict[str, Any] = {}
     for spectrum in spectra:
-        cube = spectrum.frequencies
-        assert isinstance(cube, Cube)
-        suffix = "" if len(spectra) == 1 else "." + "-".join(str(axis) for axis in spectrum.project)
+        suffix = "" if len(spectra) == 1 else "." + "-".join(map(str, spectrum.project))
         for name, values in (("mean", spectrum.mean), ("standard-error", spectrum.standard_error)):
-            if cube.dims == 3:
-                for z in range(cube.reach + 1):
-                    parts[f"{name}{suffix}.slice{z}"] = values[cube.reach + z]
+            if values.ndim == 3:
+                middle = values.shape[0] // 2
+                parts |= {f"{name}{suffix}.slice{z}": plane for z, plane in enumerate(values[middle:])}
             else:
                 parts[name + suffix] = np.atleast_2d(values)
     return parts

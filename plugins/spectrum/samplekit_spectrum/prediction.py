@@ -1,14 +1,15 @@
-"""The variance that spectra predict, beside the measured one.
+"""Compare the variance that spectra predict with the measured one.
 
-The prediction is exact for homogenised samplers only: without the shift the frequencies' amplitudes depend on each
-other, and replacing E|S|^2 by the variance of S does not mend that. So the homogenised sampler is what is measured.
+The prediction is exact for homogenised samplers only: without the shift, the amplitudes at different frequencies depend
+on each other, and replacing E|S|^2 by the variance of S does not correct for that. So the homogenised sampler is
+measured.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
 import samplekit
@@ -16,35 +17,37 @@ from samplekit import ConfiguredSampler, ConfiguredScene, check_seed
 from samplekit_spectrum.homogenized import homogenized, is_homogeneous
 from samplekit_spectrum.integrands import integrand_of
 from samplekit_spectrum.measurement import TRIALS, ZERO, Measurement, measure
+from samplekit_spectrum.point_sets import Source
 from samplekit_spectrum.request import check_integer
-from samplekit_spectrum.sets import Source
 from samplekit_spectrum.variance import Predicted, predicted_variance
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from samplekit_spectrum.integrands.integrand import Integrand
 
-Progress = Callable[[str, int, int], None]
-
-CONFIDENCE = 0.99
 _QUANTILE = 2.5758293035489004
+"""Half the width of an interval of 99 %, in standard errors."""
 _SHIFTS = 64
-"""Shifts of each set that takes long to make in a measurement, at most."""
+"""Largest number of shifts of a set in a measurement, if sets take long to make."""
 
 
 @dataclass(frozen=True)
 class Comparison:
-    """Prediction and measurement for one count.
+    """The predicted and the measured variance for one number of samples.
 
     Attributes
     ----------
-    count, predicted, measured
-        The homogenised sampler's.
+    count
+        The number of samples.
+    predicted, measured
+        The variance of the homogenised sampler.
     native
-        Measured without the shift; None where the shift changes nothing.
+        The measured variance without the shift; None if the shift changes nothing, or if it was not requested.
     ratio, ratio_low, ratio_high
-        Measured over predicted with its interval of 99 %; NaN where both are zero.
+        Measured over predicted variance, with its interval of 99 %; NaN if both are zero.
     verdict
-        ``"agrees"``, ``"agrees within the tail's bound"``, ``"differs"``, or ``"exact"`` (both are zero).
+        ``"agrees"``, ``"agrees within the tail's bound"``, ``"differs"``, or ``"exact"`` if both are zero.
     """
 
     count: int
@@ -68,25 +71,36 @@ def predict(
     native: bool = True,
     seed: int = 0,
     threads: int | None = None,
-    progress: Progress = lambda _, __, ___: None,
+    progress: Callable[[str, int, int], None] = lambda _, __, ___: None,
 ) -> Comparison:
     """Predict the variance of a homogenised sampler's estimate of a scene over the unit square, and measure it.
 
     Parameters
     ----------
-    sampler, scene, count
-        As on the command line, or what :func:`samplekit.sampler` and :func:`samplekit.scene` returned; samples.
+    sampler, scene
+        As on the command line, or what :func:`samplekit.sampler` and :func:`samplekit.scene` returned.
+    count
+        Number of samples of each estimate.
     trials
-        Estimates that the measured variance is of; None: as many as make its standard error 0.8 %.
+        Number of estimates in the measured variance; None: enough for a standard error of 0.8 %.
     realizations
-        Sets in the expected spectrum; None: as many as make the prediction's standard error 0.45 %.
+        Number of sets in the expected spectrum; None: enough for a standard error of 0.45 %.
     max_frequency
-        Largest frequency of the square; None: 16 sqrt N, at least 128, at most 512, or 1024 for sets that all have
+        Largest frequency of the square; None: 16 sqrt N, at least 128 and at most 512; or 1024 for sets that all have
         the same power.
     native
-        Measure without the shift as well.
-    seed, threads, progress
-        From 0 to 2^64 - 1; by default one for each processor; called with what is done, and the numbers done and to do.
+        Whether to measure the sampler without the shift as well.
+    seed
+        From 0 to 2^64 - 1.
+    threads
+        Number of threads; None: one for each processor.
+    progress
+        Called with the name of the present step, and the numbers done and to do.
+
+    Returns
+    -------
+    Comparison
+        Both variances, their ratio with its interval, and the verdict.
 
     Raises
     ------
@@ -108,16 +122,16 @@ def predict(
     check_settings(trials, realizations, max_frequency, seed)
     predicted = predicted_variance(
         Source(chosen, int(count), 2, int(seed)), integrand, realizations=realizations, max_frequency=max_frequency,
-        threads=threads, progress=lambda done, total: progress("spectra", done, total),
+        threads=threads, progress=partial(progress, "spectra"),
     )  # fmt: skip
-    # Each set under many shifts where it takes long to make, and then fewer sets natively.
+    # A set that takes long to make is used under many shifts; without the shift, fewer trials have the same sets.
     shifts = _shifts(trials or TRIALS) if chosen.spec.fresh_options else 1
 
     def measured(source: ConfiguredSampler, what: str, trials: int | None, shifts: int) -> Measurement:
         return measure(
             integrand_scene, source, int(count), integrand.mean,
             trials=trials, shifts=shifts, seed=seed, threads=threads,
-            progress=lambda done, total: progress(what, done, total),
+            progress=partial(progress, what),
         )  # fmt: skip
 
     shifted = measured(homogenized(chosen, shifts), "measuring", trials, shifts)
@@ -129,7 +143,7 @@ def predict(
 
 
 def check_settings(trials: int | None, realizations: int | None, max_frequency: int | None, seed: int) -> None:
-    """Raise unless these are settings of :func:`predict`.
+    """Check settings of :func:`predict`.
 
     Raises
     ------
@@ -146,28 +160,27 @@ def check_settings(trials: int | None, realizations: int | None, max_frequency: 
 
 
 def _shifts(trials: int) -> int:
-    """A divisor of the number of trials that leaves at least as many sets as there are shifts of each."""
-    return max(shifts for shifts in range(1, _SHIFTS + 1) if trials % shifts == 0 and shifts**2 <= max(trials, 1))
+    """Return a divisor of the number of trials that leaves at least as many sets as there are shifts of each."""
+    return max(shifts for shifts in range(1, _SHIFTS + 1) if trials % shifts == 0 and shifts**2 <= trials)
 
 
 def _compared(
     count: int, integrand: Integrand, predicted: Predicted, measured: Measurement, native: Measurement | None
 ) -> Comparison:
     zero = integrand.energy * ZERO**2
-    if predicted.variance <= zero + 1e-3 * zero and measured.variance <= max(zero, 1e-24 * integrand.energy):
-        return Comparison(count, predicted, measured, native, math.nan, math.nan, math.nan, "exact")
-    if predicted.variance <= zero or measured.variance <= zero:
-        ratio = measured.variance / predicted.variance if predicted.variance > 0.0 else math.inf
-        low = high = ratio
-    else:
-        ratio = measured.variance / predicted.variance
+    ratio = measured.variance / predicted.variance if predicted.variance > 0.0 else math.inf
+    relative = 0.0
+    if min(predicted.variance, measured.variance) > zero:
         relative = math.hypot(
             measured.standard_error / measured.variance, predicted.standard_error / predicted.variance
         )
-        low, high = ratio * math.exp(-_QUANTILE * relative), ratio * math.exp(_QUANTILE * relative)
+    low, high = ratio * math.exp(-_QUANTILE * relative), ratio * math.exp(_QUANTILE * relative)
     least = predicted.variance - predicted.tail
     most = least + predicted.tail_bound
-    if low <= 1.0 <= high:
+    if predicted.variance <= 1.001 * zero and measured.variance <= 100.0 * zero:
+        ratio = low = high = math.nan
+        verdict = "exact"
+    elif low <= 1.0 <= high:
         verdict = "agrees"
     elif low * predicted.variance <= most and high * predicted.variance >= least:
         verdict = "agrees within the tail's bound"

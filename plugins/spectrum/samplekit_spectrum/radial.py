@@ -1,8 +1,8 @@
-"""The radial mean of a spectrum, and how much it varies with direction.
+"""The radial mean of a spectrum, and its anisotropy: how much the power varies with direction.
 
-Ulichney 1988, "Dithering with blue noise": the mean over the ring k - 1/2 <= |m| < k + 1/2, and the anisotropy, the
-variance over the ring divided by the square of its mean, in dB. R realisations of an isotropic spectrum give -10
-log10 R.
+Ulichney 1988, "Dithering with blue noise": the mean over the ring k - 1/2 <= |m| < k + 1/2, and the anisotropy, which
+is the variance over the ring divided by the square of its mean, in dB. The mean over R realisations of an isotropic
+spectrum has an anisotropy of -10 log10 R.
 """
 
 from __future__ import annotations
@@ -12,32 +12,29 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit_spectrum.moments import ring_counts
-
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from samplekit_spectrum.frequencies import Cube
     from samplekit_spectrum.moments import Moments
 
-
 _ROUNDING = 1e-12
-"""Relative differences that are none."""
+"""Relative differences up to this size are caused by rounding."""
 
 
 @dataclass(frozen=True, eq=False)
 class Radial:
-    """Rings 1 to the reach: all that the cube does not cut.
+    """Means over the rings from 1 to the reach: all rings that the cube of frequencies does not cut.
 
     Attributes
     ----------
     frequency
-        Radius of each ring, in the middle.
+        Radius of the middle of each ring.
     frequencies
-        How many frequencies lie on it.
+        Number of frequencies on each ring.
     power, standard_error
-        The mean of E|S|^2 / N^2 over the ring; its standard error is that of the ring's mean over realisations, which
-        knows that frequencies of one realisation are not independent. NaN for a single realisation.
+        The mean of E|S|^2 over each ring, and its standard error: NaN for a single realisation. The error comes from
+        the spread of the ring's mean over realisations, so frequencies of one set may depend on each other.
     anisotropy
         In dB; -inf where the spectrum is the same in all directions.
     """
@@ -50,19 +47,23 @@ class Radial:
 
 
 def radial(cube: Cube, moments: Moments) -> Radial:
-    """The radial mean of the expected spectrum."""
-    rings = cube.rings()
-    counts = ring_counts(rings)
-    mean = np.asarray(np.bincount(rings, moments.mean) / counts, np.float64)
-    # Not the difference of the mean square and the square of the mean, which would cancel.
-    squares = np.bincount(rings, (moments.mean - mean[rings]) ** 2)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        variance = squares / np.maximum(counts - 1.0, 1.0)
-        anisotropy = 10.0 * np.log10(variance / mean**2)
+    """Return the radial mean of the expected spectrum."""
+    rings, counts = moments.rings, moments.ring_counts
+    mean = np.bincount(rings, moments.mean) / counts
+    # The mean square minus the square of the mean would cancel.
+    variance = np.bincount(rings, (moments.mean - mean[rings]) ** 2) / np.maximum(counts - 1.0, 1.0)
     return Radial(
-        np.asarray(np.arange(1, cube.reach + 1) * cube.step, np.float64),
+        np.arange(1.0, cube.reach + 1.0) * cube.step,
         (2 * counts[1:]).astype(np.int64),
         moments.ring_mean[1:],
         moments.ring_standard_error[1:],
-        np.asarray(np.where(variance <= (_ROUNDING * mean) ** 2, -np.inf, anisotropy)[1:], np.float64),
+        anisotropy(variance, mean, (_ROUNDING * mean) ** 2)[1:],
     )
+
+
+def anisotropy(
+    variance: NDArray[np.float64], mean: NDArray[np.float64], rounding: NDArray[np.float64] | float
+) -> NDArray[np.float64]:
+    """Return the anisotropy in dB; -inf where the variance over a ring is at most ``rounding``."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(variance <= rounding, -np.inf, 10.0 * np.log10(variance / mean**2))

@@ -1,4 +1,4 @@
-"""The radial mean as a plot: N times the power with its interval, and below it the anisotropy in decibel."""
+"""A plot of the radial mean: N times the power with its interval, and below it the anisotropy in decibel."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from samplekit.plots import COLOURS, Display, make_axes, style
-from samplekit_spectrum.map_display import condition_of, headline_of
+from samplekit_spectrum.map_display import condition, counted, headline
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -32,20 +32,21 @@ class RadialDisplay(Display):
     radial
         The means over rings.
     scale
-        What the power is multiplied with: N.
+        The factor of the power: N for a sampler.
     title, condition
         Two lines above the plot.
     marks
-        Frequencies to mark, with a word for each.
+        Frequencies to mark, with a text for each.
     realizations
-        For the anisotropy that an isotropic spectrum would show; 0 leaves it out.
+        Number of realisations in the mean, which determines the anisotropy that an isotropic spectrum would show; 0: do
+        not draw that level.
     labels
-        What the axes of power and of frequency say.
+        Labels of the axes of power and of frequency.
 
     Attributes
     ----------
     axes_, ax_, figure_
-        See :class:`samplekit.plots.Display`: of the power, and of the anisotropy.
+        See :class:`samplekit.plots.Display`: the first axes show the power, the second the anisotropy.
     """
 
     def __init__(
@@ -69,8 +70,8 @@ class RadialDisplay(Display):
         return cls(
             spectrum.radial,
             spectrum.count,
-            title=headline_of(spectrum),
-            condition=condition_of(spectrum),
+            title=headline(spectrum),
+            condition=condition(spectrum),
             marks=[(spectrum.count ** (1.0 / dims), _ROOTS[dims])],
             realizations=spectrum.realizations if spectrum.randomized else 0,
         )
@@ -110,7 +111,7 @@ class RadialDisplay(Display):
             self._draw_anisotropy(self.axes_[1])
         self.axes_[-1].set_xlabel(self._labels[1])
         for panel in self.axes_:
-            # From 0: what happens there is what matters.
+            # The behaviour near 0 matters most.
             panel.set_xlim(0.0, float(self.radial.frequency[-1]))
             panel.grid(color=_GRID, linewidth=0.6)
         return self
@@ -147,12 +148,10 @@ class RadialDisplay(Display):
         expected = -10.0 * math.log10(self._realizations or 1)
         finite = np.isfinite(anisotropy)
         values = np.clip(np.append(anisotropy[finite], [expected, 0.0]), -100.0, 100.0)
-        low, high = (
-            10.0 * math.floor(float(values.min()) / 10.0 - 0.2),
-            10.0 * math.ceil(float(values.max()) / 10.0 + 0.2),
-        )
+        low = 10.0 * math.floor(float(values.min()) / 10.0 - 0.2)
+        high = 10.0 * math.ceil(float(values.max()) / 10.0 + 0.2)
         if self._realizations:
-            sets = "1 realization" if self._realizations == 1 else f"{self._realizations} realizations"
+            sets = counted(self._realizations, "realization")
             _level(ax, expected, f"isotropic,\n{sets}:\n{expected + 0.0:.3g} dB".replace("-", "\N{MINUS SIGN}"))
         _curve(ax, self.radial.frequency[finite], np.clip(anisotropy[finite], low, high))
         ax.set_ylim(low, high)
@@ -160,13 +159,13 @@ class RadialDisplay(Display):
 
 
 def _curve(ax: Axes, x: NDArray[np.float64], y: NDArray[np.float64]) -> None:
-    """Draw a curve; a single value as a dot, which may lie on the frame."""
+    """Draw a curve, or a dot for a single value, which may lie on the frame."""
     single = x.size == 1
     ax.plot(x, y, color=_CURVE, linewidth=1.2, marker="o" if single else "", markersize=4.0, clip_on=not single)
 
 
 def _level(ax: Axes, value: float, word: str) -> None:
-    """Draw a value as a dashed line from side to side, and name it at the right of the axes, where no curve is."""
+    """Draw a value as a dashed horizontal line, and name it to the right of the axes, where there is no curve."""
     ax.axhline(value, color=_GUIDE, linewidth=0.7, linestyle="--")
     ax.annotate(
         word, (1.0, value), (4.0, 0.0), ax.get_yaxis_transform(), "offset points", color=_GUIDE, va="center",

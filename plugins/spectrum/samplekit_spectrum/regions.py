@@ -1,22 +1,23 @@
-"""Where the spectra are multiplied: a square of frequencies about DC in shells, and the axes far beyond it.
+"""Where the spectra are multiplied: a square of frequencies about DC in shells, and the axes far beyond the square.
 
-Integrands have most of their energy at the lowest frequencies: only there many realisations are needed, and there they
-are cheap.
+Integrands have most of their energy at the lowest frequencies. Many realisations are needed only there, where they are
+cheap.
 
-Latin hypercubes and nets have their dark axes out to frequency N, and integrands that jump at the edges of the unit
-square, or along them, have all their slow decay there: the axes cost one dimension and are taken further.
+Latin hypercubes and nets have little power on the axes out to frequency N, and integrands that jump at the edges of the
+unit square, or along them, decay slowly only on the axes. The axes have one dimension, so they can be summed further.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit_spectrum.expectation import View
+from samplekit_spectrum.expectation import Projection
 from samplekit_spectrum.frequencies import Cube
 
 if TYPE_CHECKING:
@@ -27,42 +28,36 @@ if TYPE_CHECKING:
 LARGEST_SQUARE, LARGEST_SQUARE_OF_FIXED = 512, 1024
 LARGEST_AXIS = 2**16
 SHELLS = (8, 32, 128)
-"""Where one shell of the square ends and the next begins."""
+"""The largest |m|_inf of each shell but the last."""
 _ROWS = 2**21
 
 
 @dataclass(frozen=True, eq=False)
-class Region:
-    """A view with its weights: twice |f(m)|^2 for each pair m, -m, and 0 where another region has them.
+class Region(Projection):
+    """Frequencies at which the spectra are multiplied.
 
     Attributes
     ----------
-    view
-        The projection and the frequencies at which sets are transformed.
+    axes, frequencies
+        The projection of the sets, and the frequencies.
     weights
-        float64[half].
+        float64[half]: |f(m)|^2 + |f(-m)|^2 for each pair m, -m, and 0 at frequencies that belong to another region.
     inner
-        Largest |m|_inf that another region covers.
+        Largest |m|_inf that belongs to another region.
     """
 
-    view: View
+    frequencies: Cube
     weights: NDArray[np.float64]
-    inner: int
+    inner: int = 0
 
-    @property
-    def cube(self) -> Cube:
-        """The frequencies."""
-        assert isinstance(self.view.frequencies, Cube)
-        return self.view.frequencies
-
-    @property
+    @cached_property
     def energy(self) -> float:
         """The sum of |f(m)|^2 over the region."""
         return float(self.weights.sum())
 
 
 def square(integrand: Integrand, inner: int, reach: int) -> Region:
-    """All frequencies with inner < |m|_inf <= reach."""
+    """Return the region of all frequencies with inner < |m|_inf <= reach."""
     cube = Cube(2, reach)
     weights = np.zeros(cube.half)
     for start in range(1, cube.half, _ROWS):
@@ -70,56 +65,60 @@ def square(integrand: Integrand, inner: int, reach: int) -> Region:
         vectors = cube.vectors(start, stop)
         powers = 2.0 * integrand.power(vectors[:, 0], vectors[:, 1])
         weights[start:stop] = np.where(np.abs(vectors).max(axis=1) > inner, powers, 0.0)
-    return Region(View((0, 1), cube, weights), weights, inner)
+    return Region((0, 1), cube, weights, inner)
 
 
 def axis(integrand: Integrand, dimension: int, inner: int, reach: int) -> Region:
-    """The frequencies on an axis with inner < |m| <= reach."""
+    """Return the region of the frequencies on an axis with inner < |m| <= reach."""
     cube = Cube(1, reach)
     m = np.arange(inner + 1, reach + 1)
     zero = np.zeros_like(m)
     weights = np.zeros(cube.half)
     weights[inner + 1 :] = 2.0 * (integrand.power(m, zero) if dimension == 0 else integrand.power(zero, m))
-    return Region(View((dimension,), cube, weights), weights, inner)
+    return Region((dimension,), cube, weights, inner)
 
 
 def regions(integrand: Integrand, reach: int, axis_reach: int, *, in_shells: bool) -> list[Region]:
-    """The square and both axes, whole or in shells, without those where the integrand has nothing."""
-    most = integrand.reach
-    reach, axis_reach = (min(value, most) if most else value for value in (reach, axis_reach))
-    shells = SHELLS if in_shells else ()
-    inner = 0 if integrand.axes_only else reach
-    found = [square(integrand, *shell) for shell in _shells(0, reach, shells)] if not integrand.axes_only else []
-    for shell in _shells(inner, axis_reach, shells):
-        found += [axis(integrand, dimension, *shell) for dimension in (0, 1)]
+    """Return the square and both axes, whole or in shells, without regions where the integrand has no energy."""
+    if integrand.reach is not None:
+        reach, axis_reach = min(reach, integrand.reach), min(axis_reach, integrand.reach)
+    if integrand.axes_only:
+        reach = 0
+    ends = SHELLS if in_shells else ()
+    found = [square(integrand, *shell) for shell in _shells(0, reach, ends)]
+    found += [axis(integrand, d, *shell) for shell in _shells(reach, axis_reach, ends) for d in (0, 1)]
     return [region for region in found if region.energy > 1e-14 * integrand.variance]
 
 
 def _shells(inner: int, outer: int, ends: tuple[int, ...]) -> list[tuple[int, int]]:
-    """What lies between ``inner`` and ``outer``, divided at ``ends``."""
+    """Divide the range from ``inner`` to ``outer`` at ``ends``."""
     return list(pairwise([inner, *(end for end in ends if inner < end < outer), outer])) if inner < outer else []
 
 
 def reaches(count: int, *, fixed: bool) -> tuple[int, int]:
-    """How far the square and the axes go: 16 sqrt N, most spectra being flat from a quarter of it on; 16 N for axes."""
-    most = LARGEST_SQUARE_OF_FIXED if fixed else LARGEST_SQUARE
-    reach = most if fixed else min(max(2 ** math.ceil(math.log2(16.0 * math.sqrt(count))), 128), most)
+    """Return the reach of the square, 16 sqrt N, and of the axes, 16 N, both within limits.
+
+    Most spectra are flat beyond a quarter of 16 sqrt N. If all sets have one power, ``fixed``, a large square is cheap.
+    """
+    if fixed:
+        reach = LARGEST_SQUARE_OF_FIXED
+    else:
+        reach = min(max(2 ** math.ceil(math.log2(16.0 * math.sqrt(count))), 128), LARGEST_SQUARE)
     return reach, min(max(16 * count, 2**12), LARGEST_AXIS)
 
 
 def outer_power(region: Region, mean: NDArray[np.float64], *, off_axes: bool) -> tuple[float, float]:
-    """In the outer half of a region the power weighted with the integrand's, and the largest power.
+    """Return the mean power in the outer half of a region, weighted with the integrand's, and the largest power there.
 
-    ``off_axes``: other regions go on where a square's axes end, so that what is missing beyond it is off the axes,
-    where Latin samplers are brighter.
+    The mean is NaN if the integrand has no power there. ``off_axes`` leaves out the axes of a square that other regions
+    continue: what is missing beyond the square is off the axes, where Latin samplers have more power.
     """
-    cube = region.cube
+    cube = region.frequencies
     vectors = np.abs(cube.vectors(0, cube.half))
     outer = vectors.max(axis=1) > max(cube.reach // 2, region.inner)
     if off_axes and cube.dims == 2:
         outer &= vectors.min(axis=1) > 0
     weights = region.weights[outer]
     total = float(weights.sum())
-    if total == 0.0:
-        return float("nan"), float(mean[outer].max())
-    return float((weights * mean[outer]).sum()) / total, float(mean[outer].max())
+    level = float((weights * mean[outer]).sum()) / total if total else math.nan
+    return level, float(mean[outer].max())

@@ -1,4 +1,4 @@
-"""The expected power spectrum of a sampler, as an object."""
+"""The expected power spectrum of a sampler, which ``power`` computes."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ import numpy as np
 import samplekit
 from samplekit import ConfiguredSampler, UsageError, check_seed
 from samplekit_spectrum.bias import Bias, find_bias
-from samplekit_spectrum.expectation import View, expectations
+from samplekit_spectrum.expectation import Projection, expectations
 from samplekit_spectrum.frequencies import Cube, Frequencies
 from samplekit_spectrum.homogenized import homogenized
+from samplekit_spectrum.point_sets import Source
 from samplekit_spectrum.radial import Radial, radial
 from samplekit_spectrum.request import axes_of, check_integer, frequencies_of
-from samplekit_spectrum.sets import Source
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -38,14 +38,17 @@ class Spectrum:
     Attributes
     ----------
     sampler, count, dims, project
-        Whose sets: the text that chooses the sampler, N, dimensions of the sets, and those that the spectrum is of.
+        The text that chooses the sampler, N, the number of dimensions of the sets, and the dimensions on which the sets
+        are projected.
     realizations, requested
-        How many there are means of, and how many were asked for: more, after an interrupt. A sampler that is not random
-        has one.
+        Number of realisations in the mean, and the number that was requested, which is larger after an interrupt. Both
+        are 1 for a sampler that is not random.
     seed
         The seed.
     frequencies
-        A ``Cube`` of frequencies or ``Listed`` ones.
+        A ``Cube`` of frequencies, or a ``FrequencyList``.
+    randomized
+        Whether the sampler is random.
 
     Examples
     --------
@@ -68,19 +71,20 @@ class Spectrum:
 
     @property
     def interrupted(self) -> bool:
-        """True if the request was for more realisations than were made."""
+        """True if fewer realisations were made than requested."""
         return self.realizations < self.requested
 
     @property
     def mean(self) -> NDArray[np.float64]:
         """E|S|^2: float64[..., 2F + 1, 2F + 1], axes (..., y, x), DC (which is 1) in the middle; or float64[K]."""
-        return self._shaped(self._moments.mean)
+        return self.frequencies.full(self._moments.mean)
 
     @property
     def standard_error(self) -> NDArray[np.float64]:
         """Standard error of ``mean``: 0 for a deterministic sampler, NaN for one realisation of a random one."""
-        errors = self._moments.standard_error if self.randomized else np.zeros(self.frequencies.half)
-        return self._shaped(errors)
+        return self.frequencies.full(
+            self._moments.standard_error if self.randomized else np.zeros(self.frequencies.half)
+        )
 
     @property
     def normalized(self) -> NDArray[np.float64]:
@@ -89,7 +93,7 @@ class Spectrum:
 
     @cached_property
     def bias(self) -> Bias:
-        """Where |E S(m)| is most significant."""
+        """The frequency at which |E S(m)| is most significant, and whether it is significant there."""
         return find_bias(self.frequencies, self._moments, randomized=self.randomized)
 
     @cached_property
@@ -105,9 +109,6 @@ class Spectrum:
             raise UsageError("listed frequencies have no radial mean")
         found = radial(self.frequencies, self._moments)
         return found if self.randomized else replace(found, standard_error=np.zeros(found.power.size))
-
-    def _shaped(self, half: NDArray[np.float64]) -> NDArray[np.float64]:
-        return self.frequencies.full(half) if isinstance(self.frequencies, Cube) else half.copy()
 
     def plot(
         self, ax: Axes | None = None, *, axes: Any = None, scale: float | None = None
@@ -191,17 +192,17 @@ def power(
     threads: int | None = None,
     progress: Callable[[int, int], None] = lambda _, __: None,
 ) -> Spectrum:
-    """The expected power spectrum of a sampler.
+    """Compute the expected power spectrum of a sampler.
 
     Parameters
     ----------
     sampler
-        ``NAME[:option=value,...][+RANDOMIZER]``, or what :func:`samplekit.sampler` returned. Samplers that reuse sets
-        are asked for fresh ones.
+        ``NAME[:option=value,...][+RANDOMIZER]``, or what :func:`samplekit.sampler` returned. A sampler that reuses sets
+        makes a fresh one for each realisation.
     count
-        N, points of a set.
+        N, the number of points of a set.
     realizations
-        Sets that the mean is over.
+        Number of sets in the mean; 1 is enough, and used, if the sampler is not random.
     max_frequency
         F: all integer frequencies with |m|_inf <= F. By default about 4 sqrt(N).
     step
@@ -209,13 +210,22 @@ def power(
     frequencies
         float[K, dims]: these frequencies instead, of magnitude up to 2^40.
     dims
-        Dimensions of the sets; by default 2, or as many as ``project`` needs.
+        Number of dimensions of the sets; by default 2, or as many as ``project`` needs.
     project
-        Dimensions that the spectrum is of, up to 3; by default all.
+        Up to 3 dimensions, counted from 0, on which the sets are projected; by default all.
     homogenize
         Follow the sampler with a random shift.
-    seed, threads, progress
-        From 0 to 2^64 - 1; by default one for each processor; called with the numbers of realisations done and to do.
+    seed
+        From 0 to 2^64 - 1.
+    threads
+        Number of threads; None: one for each processor.
+    progress
+        Called with the numbers of realisations done and to do.
+
+    Returns
+    -------
+    Spectrum
+        The mean power at each frequency with its standard error, the radial mean, and the test for bias.
 
     Raises
     ------
@@ -264,37 +274,30 @@ def powers(
     progress: Callable[[int, int], None] = lambda _, __: None,
     keep_interrupted: bool = False,
 ) -> list[Spectrum]:
-    """As :func:`power`, for several projections of the same sets; if wanted, of what is done at an interrupt."""
+    """Return the spectra of several projections of the same sets; the parameters are those of :func:`power`.
+
+    With ``keep_interrupted``, an interrupt ends the work, and the spectra are those of the realisations that are done.
+    """
     chosen = samplekit.sampler(sampler)
-    source_sampler = homogenized(chosen) if homogenize else chosen
-    source_sampler = source_sampler.fresh()
+    chosen = (homogenized(chosen) if homogenize else chosen).fresh()
     axes, dims = axes_of(projects, dims)
-    source_sampler.check(count, dims)
-    check_seed(seed)
+    chosen.check(count, dims)
+    seed = check_seed(seed)
     check_integer(realizations, "realizations", 2**40)
     where = frequencies_of(count, len(axes[0]), max_frequency, step, frequencies)
-    randomized = source_sampler.spec.randomized
-    wanted = realizations if randomized else 1
+    requested = realizations if chosen.spec.randomized else 1
     found = expectations(
-        Source(source_sampler, int(count), dims, int(seed)),
-        [View(pair, where) for pair in axes],
-        wanted,
+        Source(chosen, int(count), dims, seed),
+        [Projection(project, where) for project in axes],
+        requested,
         threads=threads,
         progress=progress,
         keep_interrupted=keep_interrupted,
     )
     return [
         Spectrum(
-            source_sampler.text,
-            int(count),
-            dims,
-            pair,
-            moments.realizations,
-            wanted,
-            int(seed),
-            where,
-            randomized,
-            moments,
+            chosen.text, int(count), dims, project, moments.realizations, requested, seed, where,
+            chosen.spec.randomized, moments,
         )
-        for pair, moments in zip(axes, found, strict=True)
-    ]
+        for project, moments in zip(axes, found, strict=True)
+    ]  # fmt: skip

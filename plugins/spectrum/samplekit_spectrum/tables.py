@@ -6,67 +6,59 @@ import csv
 import html
 import io
 import math
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from samplekit_spectrum.frequencies import Listed
+from samplekit_spectrum.frequencies import Cube
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from numpy.typing import NDArray
+
+    from samplekit_spectrum.bias import Bias
     from samplekit_spectrum.error_image import ErrorSpectrum
     from samplekit_spectrum.radial import Radial
     from samplekit_spectrum.spectrum import Spectrum
 
 
 def radial_csv(spectra: Sequence[Spectrum | ErrorSpectrum]) -> str:
-    """The radial means, a row for each ring: power is E|S|^2, without the factor N."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    several = len(spectra) > 1
+    """Return the radial means, a row for each ring: power is E|S|^2, without the factor N."""
     head = ["frequency", "frequencies", "power", "standard_error", "anisotropy_db"]
-    writer.writerow(["project", *head] if several else head)
-    for spectrum in spectra:
-        name = ["-".join(map(str, getattr(spectrum, "project", ())))] if several else []
-        for row in _rows(spectrum.radial):
-            writer.writerow([*name, *row])
-    return text.getvalue()
-
-
-def _rows(radial: Radial) -> list[list[Any]]:
-    columns = (radial.frequency, radial.frequencies, radial.power, radial.standard_error, radial.anisotropy)
-    return [
-        [repr(value) if isinstance(value, float) else value for value in row]
-        for row in zip(*map(_listed, columns), strict=True)
-    ]
-
-
-def _listed(column: Any) -> list[Any]:
-    return list(column.tolist())
+    rings = [spectrum.radial for spectrum in spectra]
+    tables = [(ring.frequency, ring.frequencies, ring.power, ring.standard_error, ring.anisotropy) for ring in rings]
+    return _csv(head, spectra, tables)
 
 
 def listed_csv(spectra: Sequence[Spectrum]) -> str:
-    """The power at listed frequencies, a row for each."""
+    """Return the power at listed frequencies, a row for each."""
+    axes = spectra[0].project
+    names = [f"m{axis}" for axis in (axes if len(spectra) == 1 else range(len(axes)))]
+    tables = [(*_vectors(spectrum).T, spectrum.mean, spectrum.standard_error) for spectrum in spectra]
+    return _csv([*names, "power", "standard_error"], spectra, tables)
+
+
+def _csv(head: list[str], spectra: Sequence[Spectrum | ErrorSpectrum], tables: Sequence[Sequence[NDArray[Any]]]) -> str:
+    """Return the columns of each spectrum's table as CSV, after its projection where there are several spectra."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     several = len(spectra) > 1
-    axes = spectra[0].project
-    names = [f"m{number if several else axis}" for number, axis in enumerate(axes)]
-    head = [*names, "power", "standard_error"]
     writer.writerow(["project", *head] if several else head)
-    for spectrum in spectra:
-        assert isinstance(spectrum.frequencies, Listed)
-        name = ["-".join(map(str, spectrum.project))] if several else []
-        for vector, power, error in zip(
-            spectrum.frequencies.vectors.tolist(), spectrum.mean.tolist(), spectrum.standard_error.tolist(), strict=True
-        ):
-            writer.writerow([*name, *map(repr, vector), repr(power), repr(error)])
+    for spectrum, columns in zip(spectra, tables, strict=True):
+        project = ["-".join(map(str, getattr(spectrum, "project", ())))] if several else []
+        for row in zip(*(column.tolist() for column in columns), strict=True):
+            writer.writerow([*project, *row])
     return text.getvalue()
 
 
+def _vectors(spectrum: Spectrum) -> NDArray[np.float64]:
+    return spectrum.frequencies.values(0, spectrum.frequencies.half)
+
+
 def listed_html(spectrum: Spectrum) -> str:
-    """The power at listed frequencies as a table for a notebook."""
+    """Return the power at listed frequencies as an HTML table for a notebook."""
     head, *rows = csv.reader(io.StringIO(listed_csv([spectrum])))
     lines = ["".join(f"<th>{html.escape(word)}</th>" for word in head)]
     lines += ["".join(f"<td>{float(cell):.10g}</td>" for cell in row) for row in rows]
@@ -74,39 +66,41 @@ def listed_html(spectrum: Spectrum) -> str:
 
 
 def spectrum_lines(spectrum: Spectrum) -> list[str]:
-    """Return the lines that the terminal shows of a spectrum."""
+    """Return the lines that the terminal shows for a spectrum."""
     lines = []
     if len(spectrum.project) != spectrum.dims:
         lines.append("projection on " + ", ".join(f"x{axis}" for axis in spectrum.project))
-    bias = spectrum.bias
-    words = {
-        "none found": f"none found: |E S|^2 at most {bias.score:.3g} of its expectation (limit {bias.threshold:.3g})",
-        "biased": f"biased: |E S({_vector(bias.frequency)})| = {bias.amplitude:.4g} +- {bias.standard_error:.2g}",
-        "too few realizations": "not tested: at least 16 realizations are needed",
-    }
-    if not spectrum.randomized and bias.verdict == "none found":
-        words["none found"] = "none found: S is 0 at all of these frequencies"
-    lines.append(f"  {'bias':<16}{words[bias.verdict]}")
-    if isinstance(spectrum.frequencies, Listed):
+    lines.append(f"  {'bias':<16}{_bias_text(spectrum.bias, randomized=spectrum.randomized)}")
+    if not isinstance(spectrum.frequencies, Cube):
         lines.append(f"  {'frequency':<28}{'N power':>12}{'+-':>12}")
-        for vector, power, error in zip(
-            spectrum.frequencies.vectors, spectrum.normalized, spectrum.count * spectrum.standard_error, strict=True
-        ):
+        errors = spectrum.count * spectrum.standard_error
+        for vector, power, error in zip(_vectors(spectrum), spectrum.normalized, errors, strict=True):
             lines.append(f"  {_vector(vector):<28}{power:>12.5g}{error:>12.2g}")
         return lines
     radial = spectrum.radial
     lines.append(f"  {'ring':<10}{'N power':>12}{'+-':>12}{'anisotropy':>14}")
     last = len(radial.frequency)
-    chosen = sorted({min(last, round(2**power)) for power in np.arange(0.0, math.log2(last) + 0.75, 0.75)} | {1, last})
-    for ring in chosen:
+    # The first ring and the last, and about four rings for each factor of 8 between them.
+    steps = np.arange(0.0, math.log2(last) + 0.75, 0.75)
+    for ring in sorted({min(last, round(2**step)) for step in steps}):
         power, error = spectrum.count * radial.power[ring - 1], spectrum.count * radial.standard_error[ring - 1]
         decibels = f"{radial.anisotropy[ring - 1]:.1f} dB"
         lines.append(f"  {radial.frequency[ring - 1]:<10.6g}{power:>12.5g}{error:>12.2g}{decibels:>14}")
     return lines
 
 
+def _bias_text(bias: Bias, *, randomized: bool) -> str:
+    if bias.verdict == "too few realizations":
+        return "not tested: at least 16 realizations are needed"
+    if bias.verdict == "biased":
+        return f"biased: |E S({_vector(bias.frequency)})| = {bias.amplitude:.4g} +- {bias.standard_error:.2g}"
+    if not randomized:
+        return "none found: S is 0 at all of these frequencies"
+    return f"none found: |E S|^2 at most {bias.score:.3g} of its expectation (limit {bias.threshold:.3g})"
+
+
 def error_lines(spectrum: ErrorSpectrum) -> list[str]:
-    """Return the lines that the terminal shows of an error image's spectrum."""
+    """Return the lines that the terminal shows for the spectrum of an error image."""
     lines = [f"  {'verdict':<16}{spectrum.verdict}"]
     if spectrum.verdict != "exact":
         low = f"{spectrum.low:.4g} +- {spectrum.low_standard_error:.2g} of the mean power, below 1/8 a pixel"
@@ -119,41 +113,32 @@ def _vector(vector: Any) -> str:
     return ",".join(f"{component:.10g}" for component in vector)
 
 
-def finite(value: float) -> float | None:
-    """The number for JSON, which knows neither infinity nor NaN."""
-    return float(value) if math.isfinite(value) else None
+def finite(value: Any) -> Any:
+    """Return data for JSON, which has neither infinity nor NaN: None replaces them, in dictionaries and lists too."""
+    if isinstance(value, dict):
+        return {name: finite(item) for name, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [finite(item) for item in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def radial_json(radial: Radial) -> dict[str, list[float | None]]:
-    """The radial mean for JSON."""
+def radial_json(radial: Radial) -> dict[str, list[float]]:
+    """Return the radial mean as lists."""
     return {
         "frequency": radial.frequency.tolist(),
-        "power": [finite(v) for v in radial.power],
-        "standard_error": [finite(v) for v in radial.standard_error],
-        "anisotropy_db": [finite(v) for v in radial.anisotropy],
+        "power": radial.power.tolist(),
+        "standard_error": radial.standard_error.tolist(),
+        "anisotropy_db": radial.anisotropy.tolist(),
     }
 
 
 def spectrum_json(spectrum: Spectrum) -> dict[str, Any]:
-    """A spectrum for JSON."""
-    bias = spectrum.bias
-    result: dict[str, Any] = {
-        "project": list(spectrum.project),
-        "dc": 1.0,
-        "bias": {
-            "verdict": bias.verdict,
-            "frequency": list(bias.frequency),
-            "amplitude": finite(bias.amplitude),
-            "standard_error": finite(bias.standard_error),
-            "score": finite(bias.score),
-            "threshold": finite(bias.threshold),
-            "root_mean_square": finite(bias.root_mean_square),
-        },
-    }
-    if isinstance(spectrum.frequencies, Listed):
-        result["frequencies"] = spectrum.frequencies.vectors.tolist()
-        result["power"] = spectrum.mean.tolist()
-        result["standard_error"] = [finite(v) for v in spectrum.standard_error]
-    else:
+    """Return a spectrum as a dictionary for :func:`finite` and JSON."""
+    result: dict[str, Any] = {"project": spectrum.project, "dc": 1.0, "bias": asdict(spectrum.bias)}
+    if isinstance(spectrum.frequencies, Cube):
         result["radial"] = radial_json(spectrum.radial)
+    else:
+        result["frequencies"] = _vectors(spectrum).tolist()
+        result["power"] = spectrum.mean.tolist()
+        result["standard_error"] = spectrum.standard_error.tolist()
     return result

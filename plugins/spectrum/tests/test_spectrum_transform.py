@@ -4,8 +4,9 @@ import mpmath
 import numpy as np
 import pytest
 from samplekit_spectrum import power, transform
+from samplekit_spectrum.exponentials import separate
 from samplekit_spectrum.frequencies import Cube
-from samplekit_spectrum.transform import by_products, few_points, of_pair, of_slab, slabs
+from samplekit_spectrum.transform import few_points, nufft_pair, nufft_slab, product_slab, slabs
 
 import samplekit
 
@@ -41,18 +42,16 @@ def test_every_method_agrees_with_50_digits_to_1e_11_of_n(count, reach):
     first, second = edge_points(rng, count), edge_points(rng, count)
     cube = Cube(2, reach)
     chosen = rng.choice(cube.half, min(cube.half, 60), replace=False)
-    vectors = np.concatenate([cube.vectors(i, i + 1) for i in chosen])
+    vectors = cube.vectors(0, cube.half)[chosen]
     # The arrays' axes are (y, x).
     both = np.stack([first, second])[:, ::-1]
     exact = np.stack([direct(first, vectors), direct(second, vectors)])
-    products = np.concatenate([by_products(lambda: [both], cube, slab) for slab in slabs(cube)], axis=1)
-    assert np.abs(products[:, chosen] - exact).max() < 1e-11 * count
-    mixed = of_pair(lambda: [both], cube)
-    ahead, behind = mixed[cube.half - 1 + chosen], mixed[cube.half - 1 - chosen]
-    unmixed = np.stack([(ahead + behind.conj()) / 2, (ahead - behind.conj()) / 2j])
-    assert np.abs(unmixed - exact).max() < 1e-11 * count
-    parts = [of_slab(lambda: [both[:1]], cube, slab) for slab in slabs(cube)]
-    assert np.abs(np.concatenate(parts, axis=1)[0, chosen] - exact[0]).max() < 1e-11 * count
+    pair = np.empty((2, cube.half), np.complex128)
+    separate(nufft_pair(both, cube), 0, pair)
+    assert np.abs(pair[:, chosen] - exact).max() < 1e-11 * count
+    for method in (product_slab, nufft_slab):
+        parts = [method(both, cube, slab)[:, slab.start - slab.stop :] for slab in slabs(cube)]
+        assert np.abs(np.concatenate(parts, axis=1)[:, chosen] - exact).max() < 1e-11 * count
 
 
 @pytest.mark.parametrize("vector", [(2.0**40, 3.0), (0.5, -1.25), (123456789.0, 2.0**39 + 0.5), (1e-9, 0.0)])
@@ -76,8 +75,8 @@ def test_a_step_is_a_list_of_its_multiples(step):
 def test_slabs_and_chunks_change_nothing(dims, count, monkeypatch):
     whole = power("random", count, realizations=3, max_frequency=9, dims=dims)
     monkeypatch.setattr(transform, "_SLAB", 40)
-    monkeypatch.setattr("samplekit_spectrum.sets.CHUNK", 100)
-    monkeypatch.setattr("samplekit_spectrum.expectation.LARGEST_WHOLE", 1)
+    monkeypatch.setattr("samplekit_spectrum.point_sets.CHUNK", 100)
+    monkeypatch.setattr(transform, "LARGEST_WHOLE", 1)
     parts = power("random", count, realizations=3, max_frequency=9, dims=dims)
     np.testing.assert_allclose(parts.mean, whole.mean, atol=1e-12)
     np.testing.assert_allclose(parts.radial.power, whole.radial.power, atol=1e-12)

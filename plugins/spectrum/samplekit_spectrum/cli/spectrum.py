@@ -6,30 +6,21 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from samplekit.commands import JsonOption, SeedOption, complete_sampler
+from samplekit.commands import DONE, INTERRUPTED, JsonOption, SamplerOption, SeedOption
 
 if TYPE_CHECKING:
+    from samplekit import ConfiguredSampler
     from samplekit_spectrum.spectrum import Spectrum
 
 SCHEMA = "samplekit.spectrum/1"
 IMAGE_SCHEMA = "samplekit.error-spectrum/1"
-INTERRUPTED = 130
 
 
 def spectrum(
-    sampler: Annotated[
-        str,
-        typer.Option(
-            "--sampler",
-            "-s",
-            metavar="NAME[:OPTION=VALUE,...][+RANDOMIZER]",
-            help="The sampler, such as jittered or sobol+owen.",
-            autocompletion=complete_sampler,
-        ),
-    ] = "",
+    sampler: SamplerOption = "",
     count: Annotated[str, typer.Option("--count", "-n", metavar="N", help="Points of a set, such as 256 or 2^8.")] = "",
     realizations: Annotated[
-        str, typer.Option("--realizations", "-r", metavar="R", help="Independent sets that the mean is over.")
+        str, typer.Option("--realizations", "-r", metavar="R", help="Number of independent sets in the mean.")
     ] = "100",
     max_frequency: Annotated[
         str,
@@ -48,14 +39,15 @@ def spectrum(
     ] = "",
     frequencies: Annotated[
         str,
-        typer.Option("--frequencies", metavar="X,Y;X,Y;...", help="These frequencies alone, of any size up to 2^40."),
+        typer.Option("--frequencies", metavar="X,Y;X,Y;...", help="Only these frequencies, of any size up to 2^40."),
     ] = "",
     image: Annotated[
         str,
-        typer.Option("--image", metavar="FILE.exr", help="Instead of a sampler: a rendering; its error is looked at."),
+        typer.Option("--image", metavar="FILE.exr", help="Show the spectrum of this rendering's error instead."),
     ] = "",
     scale: Annotated[
-        str, typer.Option("--scale", metavar="P", help="N times the power that is drawn white; by default 2.")
+        str,
+        typer.Option("--scale", metavar="P", help="N times the power that is drawn white; by default 2."),
     ] = "",
     seed: SeedOption = "0",
     output: Annotated[
@@ -77,8 +69,8 @@ def spectrum(
 
     if image:
         if sampler or count:
-            raise UsageError("--image takes no --sampler and no --count: it looks at the error of a rendering")
-        return _of_image(image, output, json)
+            raise UsageError("--image takes no --sampler and no --count: it shows the spectrum of a rendering's error")
+        return _spectrum_of_image(image, output, json)
     if not sampler or not count:
         raise UsageError("expected --sampler and --count, or --image")
     from samplekit.commands import announce_compilation
@@ -90,11 +82,11 @@ def spectrum(
     from samplekit.commands import Progress, parse_count, parse_seed
     from samplekit.files import check_stem
     from samplekit_spectrum.cli.values import parse_positive, parse_projections, parse_vectors
-    from samplekit_spectrum.frequencies import Listed
+    from samplekit_spectrum.frequencies import Cube
     from samplekit_spectrum.homogenized import homogenized
     from samplekit_spectrum.output import endings, write_spectra
     from samplekit_spectrum.spectrum import powers
-    from samplekit_spectrum.tables import spectrum_json, spectrum_lines
+    from samplekit_spectrum.tables import finite, spectrum_json, spectrum_lines
 
     number = parse_count(count, "count")
     size = parse_count(dims, "dims") if dims else None
@@ -124,52 +116,48 @@ def spectrum(
         )
     seconds = time.perf_counter() - began
     first = spectra[0]
-    described = _describe(first, homogenize, project, [spectrum_json(one)["bias"] for one in spectra], chosen)
-    files = write_spectra(stem, spectra, described, white)
-    if json:
-        from json import dumps
-
-        report: dict[str, Any] = {
-            **_facts(first),
-            "spectra": [spectrum_json(one) for one in spectra],
-            "seconds": seconds,
-            "files": [str(file) for file in files],
-        }
-        if not isinstance(first.frequencies, Listed):
-            report["max_frequency"], report["step"] = first.frequencies.reach, first.frequencies.step
-        typer.echo(dumps(report, allow_nan=False))
-    else:
-        sets = f"{first.realizations} realizations" if first.randomized else "one set: it is not random"
-        typer.echo(f"{first.sampler}, {first.count} points in {first.dims}D, {sets}, seed {first.seed}")
-        for one in spectra:
-            for line in spectrum_lines(one):
-                typer.echo(line)
-        typer.echo(f"  {'seconds':<16}{seconds:.3f}")
-        for file in files:
-            typer.echo(f"  {'wrote':<16}{file}")
+    described = [spectrum_json(one) for one in spectra]
+    metadata = {**_metadata(first, homogenize, project, chosen), "bias": [one["bias"] for one in described]}
+    files = write_spectra(stem, spectra, finite(metadata), white)
+    sets = f"{first.realizations} realizations" if first.randomized else "one set: it is not random"
+    lines = [f"{first.sampler}, {first.count} points in {first.dims}D, {sets}, seed {first.seed}"]
+    lines += [line for one in spectra for line in spectrum_lines(one)]
+    report: dict[str, Any] = {
+        **_facts(first),
+        "spectra": described,
+        "seconds": seconds,
+        "files": [str(file) for file in files],
+    }
+    if isinstance(first.frequencies, Cube):
+        report["max_frequency"], report["step"] = first.frequencies.reach, first.frequencies.step
+    _show(report, [*lines, f"  {'seconds':<16}{seconds:.3f}"], json)
     if first.interrupted:
         done = f"{first.realizations} of {first.requested} realizations"
         typer.echo(f"samplekit: interrupted after {done}, which are kept", err=True)
         return INTERRUPTED
-    return 0
+    return DONE
+
+
+def _show(report: dict[str, Any], lines: list[str], as_json: bool) -> None:
+    """Print the report as JSON, or lines and the files of the report."""
+    if as_json:
+        from json import dumps
+
+        from samplekit_spectrum.tables import finite
+
+        typer.echo(dumps(finite(report), allow_nan=False))
+        return
+    for line in [*lines, *(f"  {'wrote':<16}{file}" for file in report["files"])]:
+        typer.echo(line)
 
 
 def _facts(spectrum: Spectrum) -> dict[str, Any]:
-    return {
-        "schema": SCHEMA,
-        "sampler": spectrum.sampler,
-        "count": spectrum.count,
-        "dims": spectrum.dims,
-        "realizations": spectrum.realizations,
-        "requested": spectrum.requested,
-        "interrupted": spectrum.interrupted,
-        "randomized": spectrum.randomized,
-        "seed": spectrum.seed,
-    }
+    names = ("sampler", "count", "dims", "realizations", "requested", "interrupted", "randomized", "seed")
+    return {"schema": SCHEMA, **{name: getattr(spectrum, name) for name in names}}
 
 
-def _describe(spectrum: Spectrum, homogenize: bool, project: str, bias: list[Any], chosen: Any) -> dict[str, Any]:
-    """How the spectrum was made; the same for the same command, so no times and no paths."""
+def _metadata(spectrum: Spectrum, homogenize: bool, project: str, chosen: ConfiguredSampler) -> dict[str, Any]:
+    """Return how the spectrum was made, without times and paths: the same for the same command."""
     from importlib.metadata import version
 
     from samplekit import versions
@@ -181,20 +169,18 @@ def _describe(spectrum: Spectrum, homogenize: bool, project: str, bias: list[Any
     if isinstance(cube, Cube):
         words.append(f"--max-frequency {cube.reach}" + (f" --step {cube.step!r}" if cube.step != 1.0 else ""))
     words += [f"--project {project}"] * bool(project) + ["--homogenize"] * homogenize + [f"--seed {spectrum.seed}"]
-    facts = _facts(spectrum)
     return {
-        **facts,
+        **_facts(spectrum),
         "seed": str(spectrum.seed),
         "command": " ".join(words),
         "versions": versions() | {"ducc0": version("ducc0"), "samplekit-spectrum": version("samplekit-spectrum")},
         "sampler_plugin": str(chosen.plugin),
         "sampler_notes": chosen.fresh().notes(spectrum.count, spectrum.dims),
         "quantity": "E|S(m)|^2 with S(m) = (1/N) sum exp(-2 pi i m.x); DC, which is 1, in the middle",
-        "bias": bias,
     }
 
 
-def _of_image(image: str, output: str, as_json: bool) -> int:
+def _spectrum_of_image(image: str, output: str, as_json: bool) -> int:
     from pathlib import Path
 
     from samplekit import versions
@@ -206,26 +192,18 @@ def _of_image(image: str, output: str, as_json: bool) -> int:
     path = Path(image)
     stem = check_stem(output, f"spectrum-{path.stem}", MAPS + RADIAL)
     found = error_spectrum(read_error(path))
+    height, width = found.power.shape
     facts: dict[str, Any] = {
         "schema": IMAGE_SCHEMA,
         "image": path.name,
-        "size": [found.power.shape[1], found.power.shape[0]],
+        "size": [width, height],
         "verdict": found.verdict,
-        "low": finite(found.low),
-        "low_standard_error": finite(found.low_standard_error),
-        "rmse": finite(found.rmse),
-        "bias": finite(found.bias),
+        "low": found.low,
+        "low_standard_error": found.low_standard_error,
+        "rmse": found.rmse,
+        "bias": found.bias,
     }
-    files = write_error_spectrum(stem, found, {**facts, "versions": versions()}, path.name)
-    if as_json:
-        from json import dumps
-
-        report = {**facts, "radial": radial_json(found.radial), "files": [str(file) for file in files]}
-        typer.echo(dumps(report, allow_nan=False))
-        return 0
-    typer.echo(f"error of {path.name}, {found.power.shape[1]}x{found.power.shape[0]}")
-    for line in error_lines(found):
-        typer.echo(line)
-    for file in files:
-        typer.echo(f"  {'wrote':<16}{file}")
-    return 0
+    files = write_error_spectrum(stem, found, finite({**facts, "versions": versions()}), path.name)
+    report = {**facts, "radial": radial_json(found.radial), "files": [str(file) for file in files]}
+    _show(report, [f"error of {path.name}, {width}x{height}", *error_lines(found)], as_json)
+    return DONE

@@ -1,11 +1,11 @@
-"""Small languages of these commands: projections, lists of frequencies, positive numbers."""
+"""Read values of options from text: projections, lists of frequencies, positive numbers."""
 
 from __future__ import annotations
 
-import math
 import re
 
 from samplekit import UsageError
+from samplekit.commands import parse_number
 
 MOST_PAIRS = 120
 
@@ -16,7 +16,7 @@ def parse_projections(text: str, dims: int | None) -> list[tuple[int, ...] | Non
     Raises
     ------
     UsageError
-        Not of this form, or more pairs than a picture can show.
+        The text has another form, or there are more pairs than a picture can show.
     """
     if not text:
         return [None]
@@ -37,14 +37,12 @@ def parse_positive(text: str, what: str) -> float:
     Raises
     ------
     UsageError
-        It is none.
+        It is not a finite number above 0.
     """
-    try:
-        value = float(text) if "_" not in text else math.nan
-    except ValueError:
-        value = math.nan
-    if not 0.0 < value < math.inf:
-        raise UsageError(f"{what} {text}: expected a number above 0")
+    expected = "a number above 0"
+    value = parse_number(text, what, expected)
+    if value <= 0.0:
+        raise UsageError(f"{what} {text}: expected {expected}")
     return value
 
 
@@ -54,22 +52,16 @@ def parse_vectors(text: str) -> list[list[float]]:
     Raises
     ------
     UsageError
-        Not of this form, or vectors of different lengths.
+        The text has another form, or the vectors have different lengths.
     """
-    items = [item for item in text.split(";") if item.strip()]
-    vectors = [[_component(word.strip(), text) for word in item.split(",")] for item in items]
+    vectors = [[_component(word.strip()) for word in item.split(",")] for item in text.split(";") if item.strip()]
     if not vectors or len({len(vector) for vector in vectors}) != 1:
         raise UsageError(f"frequencies {text!r}: expected vectors of one length, such as 0.5,1;2^20,3")
     return vectors
 
 
-def _component(word: str, text: str) -> float:
-    power = re.fullmatch(r"(-?)(\d{1,3})\^(\d{1,3})", word, re.ASCII)
-    try:
-        if power:
-            return float(int(power[2]) ** int(power[3])) * (-1.0 if power[1] else 1.0)
-        if "_" not in word:
-            return float(word)
-    except (ValueError, OverflowError):
-        pass
-    raise UsageError(f"frequencies {text!r}: {word!r} is no number")
+def _component(word: str) -> float:
+    power = re.fullmatch(r"(-?)(\d{1,3})\^(\d{1,2})", word, re.ASCII)
+    if power:
+        return float(int(power[2]) ** int(power[3])) * (-1.0 if power[1] else 1.0)
+    return parse_number(word, "frequencies", "numbers such as 0.5 or 2^20")

@@ -1,4 +1,4 @@
-"""The disk: a Bessel function of the frequency's length."""
+"""The spectrum of the disk: a Bessel function of the frequency's length."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 def disk(name: str, options: Mapping[str, Any]) -> Integrand | None:
     """|f(m)| = r J1(2 pi r |m|) / |m|, for a disk within the unit square (Bracewell 2000, "The Fourier transform").
 
-    None for a disk that the square cuts.
+    Returns None for a disk that the square cuts.
     """
     radius, cx, cy = float(options["radius"]), float(options["cx"]), float(options["cy"])
     if not (radius <= min(cx, 1.0 - cx) and radius <= min(cy, 1.0 - cy)):
@@ -27,7 +27,7 @@ def disk(name: str, options: Mapping[str, Any]) -> Integrand | None:
     def power(mx: NDArray[Any], my: NDArray[Any]) -> NDArray[np.float64]:
         from scipy.special import j1
 
-        squared = np.asarray(mx, np.float64) ** 2 + np.asarray(my, np.float64) ** 2
+        squared = mx.astype(np.float64) ** 2 + my.astype(np.float64) ** 2
         return (radius * j1(2.0 * np.pi * radius * np.sqrt(squared))) ** 2 / squared
 
     area = math.pi * radius**2

@@ -1,4 +1,4 @@
-"""An integrand's power spectrum, its mean and its energy."""
+"""An integrand: its power spectrum, its mean and its energy."""
 
 from __future__ import annotations
 
@@ -21,15 +21,15 @@ class Integrand:
     name
         The scene's text.
     mean, energy
-        The integrals of f and of f^2: with Parseval's identity the variance of one random sample is energy - mean^2.
+        The integrals of f and of f^2. The variance of one random sample is energy - mean^2.
     power
-        |f(m)|^2 for integer frequencies (mx, my) other than 0, arrays that broadcast.
+        |f(m)|^2 for integer frequencies (mx, my) other than 0, two arrays int64 of one shape.
     reach
-        Largest |m|_inf at which ``power`` may be asked for; None: any.
+        Largest |m|_inf at which ``power`` may be called; None: any.
     axes_only
-        f(m) is 0 wherever both components are not.
-    approximate
-        The closed form is not known: ``aliasing`` bounds (by halving the resolution) what the sum of ``power`` is off.
+        True if f(m) is 0 at all m off the axes.
+    approximate, aliasing
+        True without a closed form; and then about the error of the sum of ``power``, from halving the resolution.
     """
 
     name: str
@@ -43,5 +43,5 @@ class Integrand:
 
     @property
     def variance(self) -> float:
-        """Variance of the estimate from one random sample: the sum of |f(m)|^2 over all m other than 0."""
+        """Variance of one random sample: by Parseval's identity, the sum of |f(m)|^2 over all m other than 0."""
         return max(self.energy - self.mean**2, 0.0)

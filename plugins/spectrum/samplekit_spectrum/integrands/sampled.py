@@ -1,7 +1,7 @@
-"""The power spectrum of any scene, approximated: an FFT of its means over small pixels.
+"""An approximation of the power spectrum of any scene: an FFT of its means over small pixels.
 
-The mean over a pixel is f * box, taken at a grid of K points a side: the coefficient at m is that of f times two sincs,
-plus those at m + K j (aliases), each damped by its own sincs, which are small where m is.
+The means over pixels are f * box, sampled on a grid with K points a side. Their coefficient at m is that of f times two
+sincs, plus those at m + K j (aliases), each damped by its own sincs, which are small if m is small.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ PIXELS = 2048
 
 
 def sampled_integrand(scene: ConfiguredScene) -> Integrand:
-    """The spectrum from pixel means, up to a quarter of the pixels' frequency; approximate, and marked as such.
+    """Return the spectrum from pixel means, up to a quarter of the pixels' frequency; it is marked as approximate.
 
     Raises
     ------
@@ -34,24 +34,22 @@ def sampled_integrand(scene: ConfiguredScene) -> Integrand:
     if not np.isfinite(means).all():
         raise SamplekitError(f"{scene.text} is not finite: its variance cannot be predicted")
     table = _coefficients(means)
-    half = means.reshape(PIXELS // 2, 2, PIXELS // 2, 2).mean(axis=(1, 3))
-    coarse = _coefficients(half)
-    reach = PIXELS // 4
-    overlap = PIXELS // 8
-    index = np.arange(-overlap, overlap + 1)
-    fine_part, coarse_part = table[np.ix_(index, index)], coarse[np.ix_(index, index)]
-    # Halving the pixels moves the aliases: what that changes is about what they are.
-    aliasing = float(np.abs(fine_part - coarse_part).sum())
+    coarse = _coefficients(means.reshape(PIXELS // 2, 2, PIXELS // 2, 2).mean(axis=(1, 3)))
+    # Halving the number of pixels moves the aliases, so the difference is about as large as the aliases.
+    low = np.arange(-(PIXELS // 8), PIXELS // 8 + 1)
+    aliasing = float(np.abs(table[np.ix_(low, low)] - coarse[np.ix_(low, low)]).sum())
 
     def power(mx: NDArray[Any], my: NDArray[Any]) -> NDArray[np.float64]:
-        return np.asarray(table[np.asarray(my), np.asarray(mx)], np.float64)
+        return np.asarray(table[my, mx])
 
-    mean = float(means.mean())
-    return Integrand(scene.text, mean, _energy(scene), power, reach=reach, approximate=True, aliasing=aliasing)
+    return Integrand(
+        scene.text, float(means.mean()), _energy(scene), power,
+        reach=PIXELS // 4, approximate=True, aliasing=aliasing,
+    )  # fmt: skip
 
 
 def _coefficients(means: NDArray[np.float64]) -> NDArray[np.float64]:
-    """|f(m)|^2 at [my, mx], negative frequencies counted from the end."""
+    """Return |f(m)|^2 at [my, mx]; negative frequencies count from the end, as in NumPy's indices."""
     from scipy import fft
 
     side = means.shape[0]
@@ -61,11 +59,11 @@ def _coefficients(means: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _energy(scene: ConfiguredScene) -> float:
-    """The mean of f^2 over one sample in each of K x K pixels, at a place that is always the same."""
+    """Return the mean of f^2 over K x K samples, one at a random but reproducible place in each pixel."""
     total = 0.0
     rng = np.random.Generator(np.random.Philox(key=1))
     for row in range(0, PIXELS, 64):
-        left, top = np.meshgrid(np.arange(PIXELS) / PIXELS, np.arange(row, min(row + 64, PIXELS)) / PIXELS)
+        left, top = np.meshgrid(np.arange(PIXELS) / PIXELS, np.arange(row, row + 64) / PIXELS)
         width = np.full(left.size, 1.0 / PIXELS)
         boxes = np.ascontiguousarray([left.ravel(), width, top.ravel(), width])
         values = np.empty(left.size)
