@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import TYPE_CHECKING, TypeVar
 
-from samplekit._checks import as_integer
+from samplekit._arguments import as_integer
 from samplekit._errors import UsageError
 
 if TYPE_CHECKING:

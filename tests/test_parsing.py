@@ -2,7 +2,7 @@
 
 import pytest
 
-from samplekit._checks import check_crop
+from samplekit._arguments import check_crop
 from samplekit._choices import Choice, parse_choice
 from samplekit._errors import UsageError
 from samplekit.commands import parse_count, parse_crop, parse_seed, parse_size

@@ -8,7 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from samplekit._cli import words
+from samplekit._cli import declaration_words as words
 from samplekit._registry import registry
 
 if TYPE_CHECKING:

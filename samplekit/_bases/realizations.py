@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit._checks import LARGEST_SEED
+from samplekit._arguments import LARGEST_SEED
 from samplekit._errors import UsageError
 
 if TYPE_CHECKING:

@@ -122,7 +122,7 @@ def compare(
 
 
 def _print_results(results: Results, output: str, as_json: bool) -> None:
-    from samplekit._cli.comparison import left_out_lines, lines
+    from samplekit._cli.compare_text import left_out_lines, lines
     from samplekit.commands import fact_lines, plugin_facts
 
     for line in left_out_lines(results):

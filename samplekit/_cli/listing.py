@@ -99,7 +99,7 @@ def _records(kind: str) -> list[dict[str, Any]]:
 
 
 def _record(name: str, spec: Declaration, plugin: Plugin) -> dict[str, Any]:
-    from samplekit._cli import words
+    from samplekit._cli import declaration_words as words
     from samplekit._specs import SamplerSpec
 
     record = {**asdict(spec), "name": name, "plugin": plugin.name}
@@ -140,7 +140,7 @@ def _table(kind: str) -> tuple[list[str], list[list[str]]]:
 
 
 def _sampler_row(name: str, spec: Any) -> list[str]:
-    from samplekit._cli import words
+    from samplekit._cli import declaration_words as words
 
     return [
         name,
@@ -167,7 +167,7 @@ def _status(plugin: Plugin) -> str:
 
 def _compact_samplers(wide: bool) -> tuple[list[str], list[list[str]]]:
     """Return the table of samplers for a terminal: short words, and fewer columns if the terminal is narrow."""
-    from samplekit._cli import words
+    from samplekit._cli import declaration_words as words
     from samplekit._registry import registry
 
     header = ["sampler", "dims", "points", "progressive", "random", "promises", "what it is"]

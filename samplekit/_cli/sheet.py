@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from samplekit._cli import words
+from samplekit._cli import declaration_words as words
 from samplekit._registry import Plugin, registry
 from samplekit._specs import RandomizerSpec, SamplerSpec, SceneSpec
 

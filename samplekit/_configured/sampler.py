@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from samplekit._arguments import as_integer, check_positive
 from samplekit._bases.realizations import Realizations, check_seed
 from samplekit._bases.sampler import Sampler
-from samplekit._checks import as_integer, check_positive
 from samplekit._configured.configured import Configured, find_choice
 from samplekit._configured.randomizer import ConfiguredRandomizer, randomizer
 from samplekit._errors import CountError, DimensionsError, UsageError

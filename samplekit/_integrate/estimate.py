@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from samplekit._arguments import check_positive
 from samplekit._bases.realizations import Realizations, check_seed
-from samplekit._checks import check_positive
 from samplekit._configured.sampler import sampler as configured_sampler
 from samplekit._configured.scene import scene as configured_scene
 from samplekit._integrate.loop import integrate, unit_square

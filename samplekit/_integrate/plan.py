@@ -6,8 +6,8 @@ import shlex
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from samplekit._arguments import check_crop, check_samples, check_size
 from samplekit._bases.realizations import check_seed
-from samplekit._checks import check_crop, check_samples, check_size
 from samplekit._errors import DimensionsError
 from samplekit._integrate.pixels import Pixels
 from samplekit._memory import check_memory

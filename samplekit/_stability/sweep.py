@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit._checks import LARGEST_SEED
+from samplekit._arguments import LARGEST_SEED
 from samplekit._configured.sampler import sampler as configured_sampler
 from samplekit._configured.scene import scene as configured_scene
 from samplekit._errors import UsageError

@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from samplekit._arguments import check_positive, check_samples
 from samplekit._bases.realizations import check_seed
-from samplekit._checks import check_positive, check_samples
 from samplekit._errors import UsageError
 from samplekit._memory import check_memory
 from samplekit._threads import check_threads

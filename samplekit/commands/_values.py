@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 
-from samplekit._checks import LARGEST_SEED, check_crop
+from samplekit._arguments import LARGEST_SEED, check_crop
 from samplekit._errors import UsageError
 
 _MOST_COUNTS = 1000

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
 
-from samplekit._checks import check_positive
+from samplekit._arguments import check_positive
 from samplekit._choices import parse_choice
 from samplekit._errors import UnknownNameError, UsageError
 from samplekit._registry import registry

@@ -21,7 +21,8 @@ from samplekit import (
     Products,
     SamplerSpec,
 )
-from samplekit._cli import run, words
+from samplekit._cli import declaration_words as words
+from samplekit._cli import run
 from samplekit._cli.sheet import describe, lines
 from samplekit._registry import Plugin, registry
 

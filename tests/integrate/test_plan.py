@@ -7,7 +7,7 @@ import pytest
 
 import samplekit
 from samplekit import _memory as memory
-from samplekit._checks import MOST_SAMPLES
+from samplekit._arguments import MOST_SAMPLES
 from samplekit._configured.scene import ConfiguredScene
 from samplekit._errors import SamplekitError, UsageError
 from samplekit._integrate.plan import make_plan
