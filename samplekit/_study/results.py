@@ -204,6 +204,11 @@ class Fit:
     case: str | None
     theory: float | None
 
+    @property
+    def falls(self) -> bool:
+        """Whether the rows show that the error falls: the interval of the slope, if there is one, lies below 0."""
+        return self.slope.high is None or self.slope.high < 0.0
+
 
 @dataclass(frozen=True)
 class ToTarget:

@@ -105,7 +105,7 @@ def _sampler_text(need: ToTarget, needs: Sequence[ToTarget], choices: Sequence[C
             text += f" and {seconds_in_words(need.seconds)}"
             factor = need.seconds / fastest
             text += ", the least" if factor == 1.0 else f", {factor:.3g} times the least"
-    if fit is not None and fit.slope.high is not None and fit.slope.high >= 0.0:
+    if fit is not None and not fit.falls:
         text += "; these counts do not tell how fast its mse falls"
     elif fit is not None:
         text += f"; its mse falls as N^{fit.slope.estimate:.2f}"

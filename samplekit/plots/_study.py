@@ -36,8 +36,8 @@ _SLOPES = (-1.0, -1.5, -2.0, -3.0)
 class StudyDisplay(Display):
     """The mean squared error on one scene, a curve for each sampler, along two logarithmic axes.
 
-    Every point has its 95 % interval. The legend names the slope that was fitted to each sampler, as a power of the
-    number of samples, and is sorted by the error at the end of the curves. Lines below it show how some powers fall
+    Every point has its 95 % interval. Against samples, the legend names the slope that was fitted to each sampler if
+    its interval lies below 0. The legend is sorted by the error at the end of the curves. Lines below it show how some powers fall
     along these axes. Errors of 0 cannot be drawn on a logarithmic axis and are left out.
 
     Parameters
@@ -142,7 +142,8 @@ class StudyDisplay(Display):
 
     def _curves(self) -> list[tuple[list[Row], str, dict[str, Any]]]:
         """Return rows, label and style of each sampler's curve, the curve with the largest last error first."""
-        slopes = {fit.sampler: fit.slope.estimate for fit in self.results.fits if fit.scene == self.scene}
+        fits = self.results.fits if self.against == "samples" else []
+        slopes = {fit.sampler: fit.slope.estimate for fit in fits if fit.scene == self.scene and fit.falls}
         curves = []
         for number, sampler in enumerate(self.results.samplers):
             rows = [row for row in self.rows if row.sampler == sampler]

@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 
 import samplekit
 from samplekit import UsageError
+from samplekit._study.results import Interval
 from samplekit.plots import StudyDisplay
 
 SAMPLERS = ["random", "jittered", "sobol+owen", "halton"]
@@ -54,6 +55,15 @@ def test_the_legend_names_slopes_as_powers_and_follows_the_ends_of_the_curves(st
     assert set(found) == {f"{sampler}  $N^{{{slopes[sampler]:.2f}}}$" for sampler in SAMPLERS}
     ends = [y[-1] for _, y, _, _ in found.values()]
     assert ends == sorted(ends, reverse=True)
+
+
+def test_the_legend_names_no_power_of_the_samples_along_time(study):
+    assert set(curves(study.plot("gaussian", against="time").ax_)) == set(SAMPLERS)
+
+
+def test_the_legend_names_no_power_where_the_interval_of_the_slope_reaches_0(study):
+    vague = [replace(fit, slope=Interval(-1.0, -2.5, 0.5)) for fit in study.fits]
+    assert set(curves(replace(study, fits=vague).plot("gaussian").ax_)) == set(SAMPLERS)
 
 
 def test_curves_differ_in_colour_and_in_marker(study):
