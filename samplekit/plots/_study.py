@@ -37,8 +37,8 @@ class StudyDisplay(Display):
     """The mean squared error on one scene, a curve for each sampler, along two logarithmic axes.
 
     Every point has its 95 % interval. Against samples, the legend names the slope that was fitted to each sampler if
-    its interval lies below 0. The legend is sorted by the error at the end of the curves. Lines below it show how some powers fall
-    along these axes. Errors of 0 cannot be drawn on a logarithmic axis and are left out.
+    its interval lies below 0. The legend is sorted by the error at the end of the curves. Lines below it show how some
+    powers fall along these axes. Errors of 0 cannot be drawn on a logarithmic axis and are left out.
 
     Parameters
     ----------
