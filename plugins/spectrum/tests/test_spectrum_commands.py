@@ -13,8 +13,7 @@ import pytest
 from samplekit_spectrum import power
 
 from samplekit._cli import run
-from samplekit.files._images.exr import read_parts
-from samplekit.files._images.png import read_png
+from samplekit.files import read_parts, read_png
 
 
 @pytest.fixture
@@ -148,7 +147,7 @@ def test_wrong_use_has_status_2_one_line_and_no_files(arguments, here, capsys):
 
 
 def test_an_interrupt_writes_what_is_done_if_an_output_was_given(here, capsys, monkeypatch):
-    from samplekit.commands._progress import Progress
+    from samplekit.commands import Progress
 
     def interrupt(self, done, total):
         if done >= 100:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from samplekit_spectrum.error_image import error_spectrum
 
-from samplekit._errors import SamplekitError, UsageError
+from samplekit import SamplekitError, UsageError
 
 
 def filtered(rng, shape, weight):

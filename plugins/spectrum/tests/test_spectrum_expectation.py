@@ -7,7 +7,7 @@ from samplekit_spectrum.moments import Moments
 from samplekit_spectrum.spectrum import powers
 
 import samplekit
-from samplekit._errors import UsageError
+from samplekit import UsageError
 
 
 def test_threads_change_no_bit():

@@ -13,10 +13,8 @@ from samplekit_spectrum.measurement import summarize
 from scipy.stats import chi2
 
 import samplekit
-from samplekit import Sampler
-from samplekit._bases.realizations import Realizations
+from samplekit import Realizations, Sampler, UsageError
 from samplekit._cli import run
-from samplekit._errors import UsageError
 
 
 @pytest.mark.parametrize("scene", ["disk", "gaussian", "step"])
