@@ -79,22 +79,20 @@ def helper(function: Function) -> Function:
 
 
 class _Helper:
-    """A function that LLVM inlines in kernels, and that numba compiles as it is for a call from Python.
+    """A function that LLVM inlines in kernels where that pays, and that numba compiles as it is for a call from Python.
 
-    LLVM inlines, because numba (with inline="always") infers the types of the body again at every call. The version for
+    LLVM decides, because numba (with inline="always") infers the types of the body again at every call. The version for
     kernels has no entry for Python or C: they would take longer to compile than the function.
     """
 
     def __init__(self, function: Callable[..., Any]) -> None:
         functools.update_wrapper(self, function)
         self.py_func = function
-        self._inlined = numba.njit(
-            forceinline=True, error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True
-        )(function)
-        self._find_for_kinds = self._inlined.get_call_template
-        self._inlined.get_call_template = self._find_template
+        self._in_kernels = numba.njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)(function)
+        self._find_for_kinds = self._in_kernels.get_call_template
+        self._in_kernels.get_call_template = self._find_template
         # Numba takes this for the helper where a kernel calls it.
-        self._numba_type_ = self._inlined._numba_type_
+        self._numba_type_ = self._in_kernels._numba_type_
 
     def __call__(self, *arguments: Any, **keywords: Any) -> Any:
         return self._callable(*arguments, **keywords)
