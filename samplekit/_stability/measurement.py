@@ -13,7 +13,6 @@ from samplekit._bases.realizations import Realizations
 from samplekit._integrate.loop import integrate, unit_square
 from samplekit._integrate.plan import check_points
 from samplekit._stability.extended import accumulate, distances
-from samplekit.kernels import BLOCK
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -29,6 +28,8 @@ if TYPE_CHECKING:
 ROUNDOFF = 2.0**-53
 """Largest relative error of one rounding to float64."""
 _MOST_DIGITS = 16.0
+_KEPT_BYTES = 2**24
+"""Size of the array that is freed before the first block; its pages are never touched."""
 
 
 @dataclass(frozen=True)
@@ -196,9 +197,9 @@ def measure(
         for part in scene.parts(tile, boxes):
             accumulate(np.ascontiguousarray(part), totals)
 
-    # glibc returns freed memory to the system unless a larger array was freed before; each block's arrays would then
-    # take fresh pages, which costs a seventh of the time.
-    np.empty(8 * realizations * BLOCK)
+    # glibc returns freed memory to the system unless a larger array was freed before, of at most 32 MiB; each block's
+    # arrays would then take fresh pages, which costs a seventh of the time.
+    np.empty(_KEPT_BYTES, np.uint8)
     # All realisations share one tile, so the moments are about the median of the first block of all realisations.
     (estimates,) = integrate(
         scene, sampler, (count,), trials, unit_square(realizations), tick=tick, observe=observe, tile_bytes=sys.maxsize
