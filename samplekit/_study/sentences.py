@@ -91,19 +91,21 @@ def _flip_text(flip: Flip) -> str:
 
 
 def _budgets_text(choices: Sequence[Choice]) -> str:
-    names = [listed(choice.samplers, "or") for choice in choices]
-    if len(names) == 1:
-        return f"for every budget of time the best sampler is {names[0]}"
-    if len(names) <= _MOST_BUDGETS:
-        parts = [f"from {seconds_in_words(each.seconds)} on {name}" for each, name in zip(choices, names, strict=True)]
-        return f"the best sampler for a budget of time: {', '.join(parts)}"
-    alone = dict.fromkeys(choice.samplers[0] for choice in choices if len(choice.samplers) == 1)
+    alone = [choice for choice in choices if len(choice.samplers) == 1]
+    if len(choices) == 1:
+        return f"for every budget of time the best sampler is {listed(choices[0].samplers, 'or')}"
     if not alone:
-        return "no sampler is certainly the best for any budget of time"
-    return (
-        f"as the budget of time grows, the best sampler changes {len(names) - 1} times;"
-        f" certainly the best for some are {listed(list(alone), 'and')}"
-    )
+        return "the intervals tell no best sampler for any budget of time"
+    untold = "; for other budgets the intervals do not tell" if len(alone) < len(choices) else ""
+    if len(alone) > _MOST_BUDGETS:
+        names = listed(list(dict.fromkeys(choice.samplers[0] for choice in alone)), "and")
+        return f"the best sampler changes with the budget of time among {names}{untold}"
+    return f"the best sampler for a budget of time is {listed([*map(_budget, alone)], 'and')}{untold}"
+
+
+def _budget(choice: Choice) -> str:
+    until = "on" if choice.until is None else f"to {seconds_in_words(choice.until)}"
+    return f"{choice.samplers[0]} from {seconds_in_words(choice.seconds)} {until}"
 
 
 def _crossing_text(crossing: Crossing) -> str:
