@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from samplekit._integrate.hits import FEW_HITS, NO_HITS
 from samplekit._study.errors import FEW_TRIALS, INFINITE_VARIANCE, errors_of, influence, ratio_of
 from samplekit._study.fit import fit_line, theoretical_exponent
 from samplekit._study.intervals import LEAST_TRIALS, derived_interval
@@ -190,11 +189,11 @@ class Analysis:
     def _why_no_interval(self, combination: Combination, reason: str) -> str:
         """Return a sentence that explains why the errors of a row have no interval."""
         sums = self._sums[combination]
-        if reason == NO_HITS:
+        if reason == "no hits":
             error = sums[:, SQUARE].sum() / sums[:, TRIALS].sum()
             return f"all trials gave one value, whose mse is {error:.3g}: nothing tells the errors of the next ones"
         return {
-            FEW_HITS: "too few trials found what makes up the error",
+            "few hits": "too few trials found what makes up the error",
             FEW_TRIALS: f"an interval needs {LEAST_TRIALS} trials of one pixel, or 2 of an image",
             INFINITE_VARIANCE: "the mean of the squares does not settle",
         }[reason]

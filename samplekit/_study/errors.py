@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from samplekit._integrate.hits import FEW_HITS, FEWEST_HITS, NO_HITS, effective_hits
+from samplekit._integrate.hits import describe_hits, effective_hits
 from samplekit._study.intervals import (
     LEAST_TRIALS,
     far_student,
@@ -35,10 +35,11 @@ def errors_of(
 ) -> dict[str, Any]:
     """Return the errors of a combination by the names that they have in :class:`samplekit._study.results.Row`.
 
-    An interval says something about the next trials only if these trials found what makes up the error. They did not if
-    all of them gave one value, and it is not the mean of the scene (no hits); if at most five of them, or a quarter of
-    them, differ from the others (few hits); or if the mean of an unbiased sampler is too many standard errors from the
-    known mean of the scene (few hits).
+    An interval says something about the next trials only if these trials found what makes up the error. They did not
+
+    - if all of them gave one value, and it is not the mean of the scene: no hits;
+    - if few of them differ from the others (:func:`samplekit._integrate.hits.describe_hits`): few hits;
+    - if the mean of an unbiased sampler is too many standard errors from the known mean of the scene: few hits.
 
     Parameters
     ----------
@@ -78,7 +79,7 @@ def errors_of(
             no_interval = FEW_TRIALS
         if no_interval:
             found = {name: each and Interval(each.estimate) for name, each in found.items()}
-        if no_interval == NO_HITS:
+        if no_interval == "no hits":
             found = {name: each and Interval(None) for name, each in found.items()}
             found["mse"] = Interval(None, None, _bound_from_no_events(mse, number, largest))
         elif mse.estimate is not None and math.sqrt(mse.estimate) <= floor:
@@ -94,21 +95,21 @@ def errors_of(
 
 
 def _judge_hits(sums: Array, *, one_pixel: bool, unbiased: bool, floor: float) -> str:
-    """Return ``NO_HITS``, ``FEW_HITS`` or nothing: whether the trials found what makes up the error."""
+    """Return ``no hits``, ``few hits`` or nothing: whether the trials found what makes up the error."""
     own = sums[sums[:, TRIALS] > 0.0]
     if len(own) < 2:
         return ""
     values = own[:, ERROR if one_pixel else SQUARE] / own[:, TRIALS]
     largest = float(np.abs(values).max())
-    hits = effective_hits(values, floor if one_pixel else 2.0 * floor * math.sqrt(largest))
-    if hits == 0.0:
-        return NO_HITS if largest > (floor if one_pixel else floor * floor) else ""
-    if hits <= min(FEWEST_HITS, 0.25 * len(own)):
-        return FEW_HITS
+    hits = describe_hits(effective_hits(values, floor if one_pixel else 2.0 * floor * math.sqrt(largest)), len(own))
+    if hits == "no hits":
+        return hits if largest > (floor if one_pixel else floor * floor) else ""
+    if hits:
+        return hits
     mean, error = mean_and_error(own[:, ERROR], own[:, TRIALS])
     # Two images can have equal means by chance: a standard error of 0 tells nothing.
     far = unbiased and mean is not None and error and abs(mean) > floor + far_student(len(own) - 1) * error
-    return FEW_HITS if far else ""
+    return "few hits" if far else ""
 
 
 def _bound_from_no_events(seen: Interval, trials: int, largest: float | None) -> float | None:
