@@ -198,7 +198,7 @@ class Fit:
     slope
         The exponent. Its interval allows for the scatter about the line as well as for that between trials.
     constant
-        The line's mse at one sample.
+        The line's mse at one sample; None if it is beyond the largest float.
     scatter
         Relative standard deviation of the rows about the line that the trials do not explain; 0 if they explain it all.
     first, last
@@ -212,7 +212,7 @@ class Fit:
     scene: str
     sampler: str
     slope: Interval
-    constant: float
+    constant: float | None
     scatter: float
     first: int
     last: int
