@@ -15,9 +15,9 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-ENOUGH_HITS = 40.0
-"""Effective number of realisations from which their spread is trusted; or a fifth of them, if that is less."""
-_ENOUGH_SHARE = 0.2
+ENOUGH_HITS = 64.0
+"""Effective number of realisations from which their spread is trusted; or a quarter of them, if that is less."""
+_ENOUGH_SHARE = 0.25
 
 
 def effective_hits(estimates: Array, allowance: float = 0.0) -> float:

@@ -103,7 +103,7 @@ def test_effective_hits():
     assert effective_hits(estimates + 1e-15 * noise, allowance=1e-14) == pytest.approx(7.0, rel=1e-9)
     assert effective_hits(noise) == pytest.approx(200.0 / math.pi, rel=0.15)
     assert effective_hits(noise**9) < 10.0
-    assert [describe_hits(hits, 32) for hits in (0.0, 1.0, 6.0, 7.0)] == ["no hits", "few hits", "few hits", ""]
+    assert [describe_hits(hits, 32) for hits in (0.0, 1.0, 7.0, 8.0)] == ["no hits", "few hits", "few hits", ""]
 
 
 def test_a_reference_that_is_off_by_a_thousandth_is_found(monkeypatch):
