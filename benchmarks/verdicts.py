@@ -100,7 +100,8 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=0)
     arguments = parser.parse_args()
     _random.bit_generator.state = np.random.default_rng(arguments.seed).bit_generator.state
-    judge_simulated(arguments.simulated)
+    if arguments.simulated:
+        judge_simulated(arguments.simulated)
     judge_wrong_cells(arguments.biased, arguments.seed)
     judge_right_cells(arguments.cells, f"{arguments.seed}")
 
