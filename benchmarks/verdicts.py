@@ -1,8 +1,9 @@
 """Verdicts of `samplekit stability` on random cells: how many right ones it calls wrong, and how many faults it finds.
 
-python benchmarks/verdicts.py [--cells 20000] [--biased 200] [--seed 0]
+python benchmarks/verdicts.py [--cells 20000] [--biased 1000] [--simulated 40000] [--seed 0]
 
-A wrong cell is one whose reference is moved by a number of its standard errors at 32 realisations.
+A wrong cell is one whose reference is moved by a number of its standard errors at 32 realisations. Simulated estimates
+are independent numbers of a known distribution: so many sets of 32, and of 256.
 """
 
 from __future__ import annotations
@@ -19,7 +20,9 @@ import numpy as np
 
 import samplekit
 from samplekit._bases.reference import Reference
+from samplekit._integrate.hits import describe_hits, effective_hits
 from samplekit._stability.sweep import REALIZATIONS, measure_and_judge
+from samplekit._stability.verdict import CONFIRMING_BOUND, CONFIRMING_REALIZATIONS, chance_bound
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests" / "stability"))
 
@@ -28,6 +31,35 @@ from cells import faults, random_cell
 BIASES = (2.0, 3.0, 4.0, 6.0, 10.0)
 BIASED_SCENES = ("disk", "gaussian", "bilinear", "zoneplate:k=100", "power:a=0.25", "oscillating:d=4")
 BIASED_SAMPLERS = ("random", "jittered", "halton+owen", "sobol+owen")
+
+_random = np.random.default_rng()
+FAMILIES = {
+    **{f"power a={a}": (lambda n, a=a: (1.0 - _random.random(n)) ** -a, 1.0 / (1.0 - a)) for a in (0.25, 0.4, 0.4957)},
+    **{f"gamma {k}": (lambda n, k=k: _random.gamma(k, 1.0, n), k) for k in (0.05, 0.1, 0.2, 1.0)},
+    **{
+        f"lognormal {s}": (lambda n, s=s: np.exp(s * _random.standard_normal(n)), math.exp(s * s / 2.0))
+        for s in (0.5, 1.0, 1.5, 2.0, 2.5, 3.0, 4.0)
+    },
+    "normal, and 100 more in one of 100": (
+        lambda n: _random.standard_normal(n) + 100.0 * (_random.random(n) < 0.01),
+        1.0,
+    ),
+}
+"""How to draw estimates, and their mean."""
+
+
+def judge_simulated(sets: int) -> None:
+    for name, (draw, mean) in FAMILIES.items():
+        shares = []
+        for size, bound in ((REALIZATIONS, chance_bound(REALIZATIONS)), (CONFIRMING_REALIZATIONS, CONFIRMING_BOUND)):
+            beyond = 0
+            for _ in range(sets):
+                errors = draw(size) - mean
+                if abs(errors.mean()) > bound * errors.std(ddof=1) / math.sqrt(size):
+                    beyond += size == REALIZATIONS or describe_hits(effective_hits(errors), size) == ""
+            shares.append(beyond / sets)
+        first, second = shares
+        print(f"{name}: first {first:.2g}, second {second:.2g}, both {first * second:.2g}", flush=True)
 
 
 def judge_right_cells(number: int, seed: str) -> None:
@@ -63,9 +95,13 @@ def judge_wrong_cells(number: int, seed: int) -> None:
 def main() -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("--cells", type=int, default=20_000)
-    parser.add_argument("--biased", type=int, default=200)
+    parser.add_argument("--biased", type=int, default=1000)
+    parser.add_argument("--simulated", type=int, default=40_000)
     parser.add_argument("--seed", type=int, default=0)
     arguments = parser.parse_args()
+    _random.bit_generator.state = np.random.default_rng(arguments.seed).bit_generator.state
+    if arguments.simulated:
+        judge_simulated(arguments.simulated)
     judge_wrong_cells(arguments.biased, arguments.seed)
     judge_right_cells(arguments.cells, f"{arguments.seed}")
 

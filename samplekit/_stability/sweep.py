@@ -15,13 +15,7 @@ from samplekit._errors import UsageError
 from samplekit._registry import registry
 from samplekit._stability.measurement import Measurement, measure
 from samplekit._stability.results import Cell, Stability, scene_text
-from samplekit._stability.verdict import (
-    CONFIRMING_BOUND,
-    CONFIRMING_REALIZATIONS,
-    Verdict,
-    chance_bound,
-    judge,
-)
+from samplekit._stability.verdict import CONFIRMING_BOUND, CONFIRMING_REALIZATIONS, Verdict, judge
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -132,7 +126,7 @@ def measure_and_judge(
     reference: Reference,
 ) -> tuple[Measurement | None, Verdict, bool]:
     """Return the measurement and the verdict, and whether chance did not explain a first one and this is a second."""
-    bound, repeated = chance_bound(realizations), False
+    bound, repeated = 0.0, False
     while True:
         try:
             measured = measure(scene, sampler, count, realizations=realizations, seed=seed, reference=reference)

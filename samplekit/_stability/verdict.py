@@ -56,13 +56,13 @@ class Verdict:
 
 
 def chance_bound(realizations: int) -> float:
-    """Return the standard errors that chance explains, by Student's t; infinite for one realisation."""
+    """Return the standard errors that chance explains for normal estimates, by Student's t; infinite for one."""
     from scipy.special import stdtrit
 
     return float(-stdtrit(realizations - 1, FALSE_ALARMS / 2.0)) if realizations > 1 else math.inf
 
 
-def judge(measured: Measurement, *, finite_variance: bool, bound: float) -> Verdict:
+def judge(measured: Measurement, *, finite_variance: bool, bound: float = 0.0) -> Verdict:
     """Judge one measurement; a second one must confirm ``wrong``.
 
     Parameters
@@ -72,7 +72,7 @@ def judge(measured: Measurement, *, finite_variance: bool, bound: float) -> Verd
     finite_variance
         Whether the values of the scene have a finite variance.
     bound
-        Standard errors that chance explains.
+        Standard errors that chance explains if enough estimates differ and Student's t does not explain the error.
     """
     within = abs(measured.error) <= measured.allowance
     if measured.invalid:
@@ -102,10 +102,11 @@ def judge(measured: Measurement, *, finite_variance: bool, bound: float) -> Verd
             f"all {measured.realizations} estimates are {measured.estimate:.3g} but for rounding:"
             f" the variance is 0, and the error {measured.error:.3g}",
         )
-    if abs(measured.standard_errors) <= bound:
+    limit = chance_bound(measured.realizations)
+    if abs(measured.standard_errors) <= (limit if hits else max(limit, bound)):
         return Verdict("right")
     reason = (
         f"{measured.standard_errors:.3g} standard errors, and {measured.effective_realizations:.1f} of"
-        f" {measured.realizations} estimates that differ"
+        f" {measured.realizations} estimates differ"
     )
     return Verdict(hits or "wrong", reason)

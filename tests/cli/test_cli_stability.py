@@ -12,7 +12,7 @@ def test_the_command_prints_a_table_and_what_the_words_mean(command):
     assert done.status == 0
     assert "gaussian, random" in done.out
     assert "sigma=1e-12" in done.out
-    assert "no hits: no sample hit: all samples are equal" in done.out
+    assert "no hits: all samples, or all estimates, are equal" in done.out
     assert "16 cells" in done.out
 
 

@@ -59,6 +59,14 @@ def test_beyond_four_standard_errors_twice_is_chance_for_few_or_skewed_estimates
     assert one(scene, sampler, count, realizations=realizations, seed=seed).verdict.kind == "right"
 
 
+def test_few_hits_are_named_where_normal_estimates_would_not_be_so_far_off():
+    """-5.2 standard errors of 256 estimates, of which one or two see the peak."""
+    cell = one("gaussian:sigma=1e-3", "halton+owen", 256)
+    assert cell.repeated
+    assert cell.measured.effective_realizations < 2.0
+    assert cell.verdict.kind == "few hits"
+
+
 def test_a_pedestal_that_cancels_the_values_leaves_their_rounding():
     """Values of 1 - 1e-12 are rounded to 1e-16, with a bias that their differences from 1 keep."""
     scene = "offset:pedestal=-1,scene=zoneplate:k=6.396e-06+cx=0.375+cy=0.5"
@@ -91,6 +99,15 @@ def test_false_alarms_of_rare_events_are_rarer_than_stated():
     assert 2.0 * math.exp(-(self_normalized**2) / 2.0) < 2e-11
 
 
+def test_skewed_estimates_that_miss_their_tail_have_few_hits():
+    """10 000 sets of lognormal numbers: of sets beyond the bound, ones with enough hits have a rate of 3e-5."""
+    estimates = np.exp(2.0 * np.random.default_rng(0).standard_normal((10000, CONFIRMING_REALIZATIONS)))
+    errors = estimates - math.exp(2.0)
+    far = np.abs(errors.mean(1)) > CONFIRMING_BOUND * errors.std(1, ddof=1) / math.sqrt(CONFIRMING_REALIZATIONS)
+    assert np.count_nonzero(far) > 20
+    assert {describe_hits(effective_hits(each), CONFIRMING_REALIZATIONS) for each in errors[far]} == {"few hits"}
+
+
 def test_effective_hits():
     estimates = np.full(100, 0.3)
     assert effective_hits(estimates) == 0.0
@@ -103,7 +120,7 @@ def test_effective_hits():
     assert effective_hits(estimates + 1e-15 * noise, allowance=1e-14) == pytest.approx(7.0, rel=1e-9)
     assert effective_hits(noise) == pytest.approx(200.0 / math.pi, rel=0.15)
     assert effective_hits(noise**9) < 10.0
-    assert [describe_hits(hits, 32) for hits in (0.0, 1.0, 6.0, 7.0)] == ["no hits", "few hits", "few hits", ""]
+    assert [describe_hits(hits, 32) for hits in (0.0, 1.0, 7.0, 8.0)] == ["no hits", "few hits", "few hits", ""]
 
 
 def test_a_reference_that_is_off_by_a_thousandth_is_found(monkeypatch):
