@@ -22,7 +22,7 @@ import samplekit
 from samplekit._bases.reference import Reference
 from samplekit._integrate.hits import describe_hits, effective_hits
 from samplekit._stability.sweep import REALIZATIONS, measure_and_judge
-from samplekit._stability.verdict import CONFIRMING_BOUND, CONFIRMING_REALIZATIONS, chance_bound
+from samplekit._stability.verdict import CONFIRMING_BOUND, CONFIRMING_REALIZATIONS, chance_bound, enough_hits
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests" / "stability"))
 
@@ -56,7 +56,7 @@ def judge_simulated(sets: int) -> None:
             for _ in range(sets):
                 errors = draw(size) - mean
                 if abs(errors.mean()) > bound * errors.std(ddof=1) / math.sqrt(size):
-                    beyond += size == REALIZATIONS or describe_hits(effective_hits(errors), size) == ""
+                    beyond += size == REALIZATIONS or describe_hits(effective_hits(errors), enough_hits(size)) == ""
             shares.append(beyond / sets)
         first, second = shares
         print(f"{name}: first {first:.2g}, second {second:.2g}, both {first * second:.2g}", flush=True)

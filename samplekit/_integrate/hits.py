@@ -15,13 +15,6 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-ENOUGH_HITS = 64.0
-"""Effective number of realisations from which their spread is trusted; or a quarter of them, if that is less.
-
-At 256 realisations, skewed estimates of which so many differ are off by 8 standard errors about once in 10^4 times at
-most (``benchmarks/verdicts.py``)."""
-_ENOUGH_SHARE = 0.25
-
 
 def effective_hits(estimates: Array, allowance: float = 0.0) -> float:
     """Return the effective number of realisations whose estimates differ from the most common one.
@@ -46,8 +39,8 @@ def effective_hits(estimates: Array, allowance: float = 0.0) -> float:
     return float(distances.sum() ** 2 / np.square(distances).sum())
 
 
-def describe_hits(hits: float, realizations: int) -> Literal["", "no hits", "few hits"]:
-    """Return whether so many effective hits out of so many realisations are none or few; empty if they are enough."""
+def describe_hits(hits: float, enough: float) -> Literal["", "no hits", "few hits"]:
+    """Return whether so many effective hits are none, or fewer than enough; empty if they are enough."""
     if hits == 0.0:
         return "no hits"
-    return "few hits" if hits < min(ENOUGH_HITS, _ENOUGH_SHARE * realizations) else ""
+    return "few hits" if hits < enough else ""

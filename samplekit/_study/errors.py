@@ -20,6 +20,10 @@ from samplekit._study.intervals import (
 from samplekit._study.results import LEVEL, Interval
 from samplekit._study.trials import BLURRED, ERROR, INVALID, PAIRS, PRODUCT, SQUARE, TRIALS, Array
 
+_ENOUGH_HITS = 16.0
+"""Effective number of trials from which their errors have an interval; or a fifth of them, if that is less.
+
+With fewer, rare errors of another size are likely to be missing."""
 FEW_TRIALS, INFINITE_VARIANCE = "few trials", "infinite variance"
 
 
@@ -101,7 +105,8 @@ def _judge_hits(sums: Array, *, one_pixel: bool, unbiased: bool, floor: float) -
         return ""
     values = own[:, ERROR if one_pixel else SQUARE] / own[:, TRIALS]
     largest = float(np.abs(values).max())
-    hits = describe_hits(effective_hits(values, floor if one_pixel else 2.0 * floor * math.sqrt(largest)), len(own))
+    rounding = floor if one_pixel else 2.0 * floor * math.sqrt(largest)
+    hits = describe_hits(effective_hits(values, rounding), min(_ENOUGH_HITS, 0.2 * len(own)))
     if hits == "no hits":
         return hits if largest > (floor if one_pixel else floor * floor) else ""
     if hits:

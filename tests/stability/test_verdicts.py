@@ -12,8 +12,15 @@ from scipy.stats import binom
 import samplekit
 from samplekit._builtin.samplers.random import Random as RandomSampler
 from samplekit._builtin.scenes.gaussian import Gaussian
-from samplekit._integrate.hits import ENOUGH_HITS, describe_hits, effective_hits
-from samplekit._stability.verdict import CONFIRMING_BOUND, CONFIRMING_REALIZATIONS, FALSE_ALARMS, chance_bound
+from samplekit._integrate.hits import describe_hits, effective_hits
+from samplekit._stability.verdict import (
+    CONFIRMING_BOUND,
+    CONFIRMING_REALIZATIONS,
+    ENOUGH_HITS,
+    FALSE_ALARMS,
+    chance_bound,
+    enough_hits,
+)
 
 
 def one(scene, sampler, count, **more):
@@ -87,9 +94,9 @@ def test_false_alarms_of_rare_events_are_rarer_than_stated():
     number = CONFIRMING_REALIZATIONS
     k = np.arange(1, number)
     error = np.sqrt(k / number * (1.0 - k / number) / (number - 1))
-    enough = [describe_hits(min(hits, number - hits), number) == "" for hits in k]
-    assert describe_hits(ENOUGH_HITS, number) == ""
-    assert describe_hits(ENOUGH_HITS - 1.0, number) == "few hits"
+    enough = [describe_hits(min(hits, number - hits), enough_hits(number)) == "" for hits in k]
+    assert describe_hits(ENOUGH_HITS, enough_hits(number)) == ""
+    assert describe_hits(ENOUGH_HITS - 1.0, enough_hits(number)) == "few hits"
     rates = [
         binom.pmf(k, number, p)[enough & (np.abs(k / number - p) > CONFIRMING_BOUND * error)].sum()
         for p in np.geomspace(1e-6, 0.5, 500)
@@ -105,7 +112,9 @@ def test_skewed_estimates_that_miss_their_tail_have_few_hits():
     errors = estimates - math.exp(2.0)
     far = np.abs(errors.mean(1)) > CONFIRMING_BOUND * errors.std(1, ddof=1) / math.sqrt(CONFIRMING_REALIZATIONS)
     assert np.count_nonzero(far) > 20
-    assert {describe_hits(effective_hits(each), CONFIRMING_REALIZATIONS) for each in errors[far]} == {"few hits"}
+    assert {describe_hits(effective_hits(each), enough_hits(CONFIRMING_REALIZATIONS)) for each in errors[far]} == {
+        "few hits"
+    }
 
 
 def test_effective_hits():
@@ -120,7 +129,12 @@ def test_effective_hits():
     assert effective_hits(estimates + 1e-15 * noise, allowance=1e-14) == pytest.approx(7.0, rel=1e-9)
     assert effective_hits(noise) == pytest.approx(200.0 / math.pi, rel=0.15)
     assert effective_hits(noise**9) < 10.0
-    assert [describe_hits(hits, 32) for hits in (0.0, 1.0, 7.0, 8.0)] == ["no hits", "few hits", "few hits", ""]
+    assert [describe_hits(hits, enough_hits(32)) for hits in (0.0, 1.0, 7.0, 8.0)] == [
+        "no hits",
+        "few hits",
+        "few hits",
+        "",
+    ]
 
 
 def test_a_reference_that_is_off_by_a_thousandth_is_found(monkeypatch):
