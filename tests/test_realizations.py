@@ -1,8 +1,10 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import samplekit
-from samplekit import Realizations, UsageError
+from samplekit import Realizations, Sampler, SamplerSpec, UsageError
 from samplekit._bases.realizations import LARGEST_COORDINATE, seed_word
 
 SEEDS = [0, 1, 2, 2**32, 2**63, 2**64 - 1]
@@ -25,12 +27,50 @@ def test_seeds_have_words_of_their_own():
 
 
 def test_a_trial_is_a_pixel_of_the_first_row():
-    trials = Realizations.of_trials(3, 11, 5)
+    trials = samplekit.sampler("random").trials(3, 11, 5)
     pixels = Realizations.of_pixels(np.arange(3, 11), np.zeros(8, np.int64), 5)
     assert np.array_equal(trials.keys, pixels.keys)
     assert trials.x.tolist() == list(range(3, 11))
     assert not trials.y.any()
     assert len(trials) == 8
+
+
+BLOCKS = ["z-sobol", "z-sobol+shift", "z-sobol+owen", "z-sobol:orders=random"]
+
+
+@pytest.mark.parametrize("text", BLOCKS)
+@pytest.mark.parametrize("apart", [1, 64, 4099])
+@pytest.mark.parametrize("start", [0, 1_047_000, 66_076_000, 2**31, 2**35])
+def test_trials_are_in_blocks_of_their_own(text, apart, start):
+    """Randomizers do not make the shapes of the sets of a block independent."""
+    trials = samplekit.sampler(text).trials(start, start + 2000, 1, apart=apart)
+    assert np.unique(np.stack([trials.x >> 6, trials.y >> 6]), axis=1).shape[1] == 2000
+    assert np.unique(trials.x & 63).size == 64
+    part = samplekit.sampler(text).trials(start + 700, start + 900, 1, apart=apart)
+    assert np.array_equal(part.keys, trials.keys[700:900])
+
+
+def test_rows_of_trials_end_before_the_largest_coordinate():
+    for apart, columns in ((1, 2**32), (4099, 1_047_809), (65, 66_076_420)):
+        trials = samplekit.sampler("random").trials(columns - 1, columns + 2, 0, apart=apart)
+        assert trials.x.tolist() == [(columns - 1) * apart, 0, apart]
+        assert trials.y.tolist() == [0, apart, apart]
+        assert (columns - 1) * apart <= LARGEST_COORDINATE < columns * apart
+    with pytest.raises(UsageError, match="from 0 to 4294967295"):
+        samplekit.sampler("random").trials(-1, 1, 0)
+
+
+def test_a_block_that_the_options_decide_counts():
+    trials = samplekit.sampler(SamplerSpec("tiled", f"{__name__}:Tiled", "a block")).followed_by("owen").trials(0, 3, 0)
+    assert trials.x.tolist() == [0, 17, 34]
+
+
+class Tiled(Sampler):
+    def refine(self, spec):
+        return replace(spec, screen_block=16)
+
+    def fill(self, out, realizations, count, start):
+        out[:] = 0.5
 
 
 def test_the_points_of_a_trial_are_those_of_the_pixel():
@@ -74,14 +114,14 @@ def test_bad_seeds_are_errors(seed):
     for request in (
         lambda: samplekit.points("random", 4, seed=seed),
         lambda: samplekit.estimate("disk", "random", 4, seed=seed),
-        lambda: Realizations.of_trials(0, 1, seed),
+        lambda: samplekit.sampler("random").trials(0, 1, seed),
     ):
         with pytest.raises(UsageError, match="expected an integer from 0 to 18446744073709551615"):
             request()
 
 
 def test_a_slice_is_the_same_realisations():
-    whole = Realizations.of_trials(0, 10, 1)
+    whole = samplekit.sampler("random").trials(0, 10, 1)
     part = whole[3:7]
     assert np.array_equal(part.keys, whole.keys[3:7])
     assert part.x.tolist() == [3, 4, 5, 6]
@@ -89,20 +129,20 @@ def test_a_slice_is_the_same_realisations():
 
 
 def test_random_words_depend_on_key_and_dimension_alone():
-    realizations = Realizations.of_trials(0, 100, 1)
+    realizations = samplekit.sampler("random").trials(0, 100, 1)
     words = realizations.random_words(8)
     assert words.shape == (100, 8)
     assert words.dtype == np.uint64
     assert np.unique(words).size == 800
     assert np.array_equal(realizations.random_words(3), words[:, :3])
     assert np.array_equal(realizations[40:].random_words(8), words[40:])
-    assert not np.intersect1d(words, Realizations.of_trials(0, 100, 2).random_words(8)).size
+    assert not np.intersect1d(words, samplekit.sampler("random").trials(0, 100, 2).random_words(8)).size
 
 
 def test_bits_of_keys_and_words_are_fair():
     """Each bit over 2^16 pixels, and over 8192 pixels by 8 dimensions: within 5 standard errors (false alarms 7e-5)."""
     keys = image_keys(256, 256, 3, left=2**31, top=7)
-    words = Realizations.of_trials(0, 8192, 3).random_words(8).ravel()
+    words = samplekit.sampler("random").trials(0, 8192, 3).random_words(8).ravel()
     for sample in (keys, words):
         for bit in range(64):
             ones = np.count_nonzero(sample >> np.uint64(bit) & np.uint64(1))
@@ -111,7 +151,7 @@ def test_bits_of_keys_and_words_are_fair():
 
 def test_every_other_realisation():
     every, other = np.empty((10, 2, 4)), np.empty((5, 2, 4))
-    realizations = Realizations.of_trials(0, 10, 0)
+    realizations = samplekit.sampler("random").trials(0, 10, 0)
     sampler = samplekit.sampler("random")
     sampler.fill(every, realizations, 4, 0)
     sampler.fill(other, realizations[::2], 4, 0)

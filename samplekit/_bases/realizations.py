@@ -25,14 +25,17 @@ def _mix64(x: NDArray[np.uint64]) -> NDArray[np.uint64]:
 
 @dataclass(frozen=True, eq=False)
 class Realizations:
-    """A batch of R realisations: one point set each, independent of the rest.
+    """A batch of R realisations: one point set each.
+
+    Sets of different pixels are independent, unless the sampler declares a ``screen_block``;
+    :meth:`ConfiguredSampler.trials` returns realisations that are independent in any case.
 
     Attributes
     ----------
     keys
         uint64[R]. Within one seed no two pixels have the same key: the key is a bijection of (x, y).
     x, y
-        int64[R]. Pixel coordinates; a plain list of realisations is the row y = 0.
+        int64[R]. Pixel coordinates.
     seed
         The seed, for samplers that share something between all pixels.
     blocks
@@ -41,8 +44,9 @@ class Realizations:
 
     Examples
     --------
+    >>> import numpy as np
     >>> from samplekit import Realizations
-    >>> len(Realizations.of_trials(0, 5, seed=7).keys)
+    >>> len(Realizations.of_pixels(np.arange(5), np.zeros(5, np.int64), seed=7).keys)
     5
     """
 
@@ -71,12 +75,6 @@ class Realizations:
                 raise UsageError(f"pixel coordinates must be from 0 to {LARGEST_COORDINATE}")
         code = x.astype(np.uint64) | (y.astype(np.uint64) << np.uint64(32))
         return cls(_mix64(code ^ seed_word(seed)), x, y, seed, blocks)
-
-    @classmethod
-    def of_trials(cls, start: int, stop: int, seed: int, blocks: tuple[int, ...] = ()) -> Realizations:
-        """Realisations start to stop: the pixels (start, 0) to (stop - 1, 0)."""
-        x = np.arange(start, stop, dtype=np.int64)
-        return cls.of_pixels(x, np.zeros_like(x), seed, blocks)
 
     def random_words(self, dims: int) -> NDArray[np.uint64]:
         """64 random bits for each realisation and dimension, uint64[R, dims]: for shifts and the like, in NumPy.

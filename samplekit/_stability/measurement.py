@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit._bases.realizations import Realizations
 from samplekit._integrate.loop import integrate, unit_square
 from samplekit._integrate.plan import check_points
 from samplekit._stability.extended import accumulate, distances
@@ -187,7 +186,7 @@ def measure(
     """
     check_points(scene, sampler, count)
     sampler.prepare(count, scene.dims)
-    trials = Realizations.of_trials(0, realizations, seed, scene.blocks)
+    trials = sampler.trials(0, realizations, seed, scene.blocks)
     totals, magnitude_totals, moments = np.zeros((realizations, 2)), np.zeros((realizations, 2)), _Moments()
 
     def observe(tile: Array, boxes: Array) -> None:

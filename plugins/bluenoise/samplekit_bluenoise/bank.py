@@ -128,7 +128,7 @@ class WholeSets(Sampler):
 
     def _make_bank(self, shape: tuple[int, int, int], progress: Callable[[int, int], None]) -> Array:
         sets = np.empty(shape)
-        realizations = Realizations.of_trials(0, shape[0], _SEED)
+        realizations = Realizations.of_pixels(np.arange(shape[0]), np.zeros(shape[0], np.int64), _SEED)
         progress(0, shape[0])
         with ThreadPoolExecutor(os.cpu_count()) as pool:
             made = pool.map(lambda k: self.make(sets[k : k + 1], realizations[k : k + 1]), range(shape[0]))

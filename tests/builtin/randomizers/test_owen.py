@@ -26,7 +26,7 @@ def test_scrambling_is_the_same_fused_and_apart(name):
     from samplekit._builtin.randomizers.owen import Owen
 
     dims = 1 if name == "van-der-corput" else 4
-    realizations = samplekit.Realizations.of_trials(0, 6, 2)
+    realizations = samplekit.sampler("random").trials(0, 6, 2)
     sampler, plain = samplekit.sampler(f"{name}+owen"), samplekit.sampler(name)
     fused, apart = np.empty((2, 6, dims, 500))
     sampler.fill(fused, realizations, 3000, 2000)
