@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 
 import samplekit
-from samplekit import Realizations, Sampler, SamplerSpec, UsageError
-from samplekit._bases.realizations import LARGEST_COORDINATE, seed_word
+from samplekit import Realizations, Sampler, SamplerSpec, UsageError, seed_words
+from samplekit._bases.realizations import LARGEST_COORDINATE, _mix64
+from samplekit.kernels import kernel, mix64, pixel_key
 
+GOLDEN = 0x9E3779B97F4A7C15
 SEEDS = [0, 1, 2, 2**32, 2**63, 2**64 - 1]
 
 
@@ -21,9 +23,82 @@ def test_keys_are_distinct_over_an_image_and_over_seeds():
     assert np.unique(keys).size == 3 * 512 * 512
 
 
-def test_seeds_have_words_of_their_own():
-    words = {int(seed_word(seed)) for seed in [*range(10000), *(2**63 + k for k in range(100)), *SEEDS]}
-    assert len(words) == 10000 + 100 + 2
+def unmixed(word):
+    """The inverse of mix64."""
+    word ^= word >> 31 ^ word >> 62
+    word = word * pow(0x94D049BB133111EB, -1, 2**64) % 2**64
+    word ^= word >> 27 ^ word >> 54
+    word = word * pow(0xBF58476D1CE4E5B9, -1, 2**64) % 2**64
+    return word ^ word >> 30 ^ word >> 60
+
+
+def structured_seeds():
+    """A million seeds: small ones, powers of two and their neighbours, and those whose words are near another seed's.
+
+    A first word that differs from another seed's by the code x | y << 32 of a pixel moves the codes of all pixels.
+    """
+    assert mix64(np.uint64(unmixed(12345))) == 12345
+    codes = [x | y << 32 for y in range(64) for x in range(64)]
+    seeds = set(range(500_000))
+    seeds.update((sign * 2**k + j) % 2**64 for k in range(64) for j in range(-500, 500) for sign in (1, -1))
+    for seed in (*range(20), 2**63, 2**64 - 1):
+        first, second = map(int, seed_words(seed))
+        seeds.update(unmixed(first ^ code) ^ GOLDEN for code in codes)
+        seeds.update(unmixed((second + code) % 2**64) for code in codes[:1000])
+    assert 12358395470402263640 in seeds
+    random = np.random.default_rng(0).integers(0, 2**64, 1_000_000 - len(seeds), dtype=np.uint64)
+    return np.concatenate([np.array(sorted(seeds), np.uint64), random])
+
+
+@kernel("void(uint64[:,::1], uint64[:,::1], int64, int64)")
+def sum_images(sums, words, width, height):
+    """Hash the set of keys of each seed's image: the sum of a hash of each key, which their order does not change."""
+    for s in range(words.shape[0]):
+        for y in range(height):
+            for x in range(width):
+                sums[s, 0] += mix64(pixel_key(x, y, words[s, 0], words[s, 1]))
+
+
+def check_no_image_is_a_permutation_of_another(sizes):
+    """Images that are permutations of each other have equal sums; a chance coincidence has probability 3e-8 a size."""
+    seeds = np.unique(structured_seeds())
+    assert seeds.size > 999_000
+    words = np.stack([_mix64(seeds ^ np.uint64(GOLDEN)), _mix64(seeds)], axis=1)
+    assert words[:1000].tolist() == [[*map(int, seed_words(seed))] for seed in seeds[:1000]]
+    for width, height in sizes:
+        sums = np.zeros((seeds.size, 1), np.uint64)
+        sum_images(sums, words, width, height)
+        assert np.unique(sums).size == seeds.size
+
+
+def test_no_small_image_of_a_million_seeds_is_a_permutation_of_another():
+    check_no_image_is_a_permutation_of_another([(1, 1), (2, 1), (1, 2), (2, 2), (4, 4)])
+
+
+@pytest.mark.slow
+def test_no_image_of_a_million_seeds_is_a_permutation_of_another():
+    check_no_image_is_a_permutation_of_another([(3, 1), (3, 3), (8, 8), (64, 1), (1, 64), (16, 16), (32, 32), (64, 64)])
+
+
+def test_seeds_whose_words_differ_by_a_pixel_have_other_points():
+    """With one word for each seed, the image of the first seed was that of seed 0 with neighbouring pixels swapped."""
+    for seed in (12358395470402263640, unmixed(int(seed_words(7)[0]) ^ 1 << 32) ^ GOLDEN):
+        for of in (0, 7):
+            assert not np.intersect1d(image_keys(8, 8, seed), image_keys(8, 8, of)).size
+
+
+def test_kernels_make_the_same_keys():
+    x, y = np.array([0, 5, 2**32 - 1]), np.array([7, 2**32 - 1, 3])
+    for seed in SEEDS:
+        keys = [pixel_key(*pixel, *seed_words(seed)) for pixel in zip(x.tolist(), y.tolist(), strict=True)]
+        assert Realizations.of_pixels(x, y, seed).keys.tolist() == keys
+
+
+def test_keys_of_seed_0():
+    """Numbers of version 0.1.0, which had no second word: seed 0 keeps its points."""
+    code = np.arange(4, dtype=np.uint64) | np.uint64(9 << 32)
+    expected = [int(mix64(word ^ mix64(np.uint64(GOLDEN)))) for word in code]
+    assert Realizations.of_pixels(np.arange(4), np.full(4, 9), 0).keys.tolist() == expected
 
 
 def test_a_trial_is_a_pixel_of_the_first_row():

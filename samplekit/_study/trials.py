@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from samplekit._bases.realizations import seed_word
+from samplekit._bases.realizations import seed_words
 from samplekit._integrate.loop import integrate, unit_square
 from samplekit._study.blurred import blurred_mean_square
 from samplekit._study.request import UNIT_SQUARE
@@ -44,7 +44,7 @@ _PIXELS_AT_ONCE = 2**16
 
 def seed_of(seed: int, trial: int) -> int:
     """Return the seed of an image: the seed of the study for trial 0, a hash of it for all others."""
-    return int(seed_word((seed + trial * _STEP) % 2**64)) if trial else seed
+    return int(seed_words((seed + trial * _STEP) % 2**64)[0]) if trial else seed
 
 
 def carry_out(job: Job, resources: Resources = OF_PROCESS, tick: Tick = lambda _: None) -> Array:

@@ -52,7 +52,7 @@ def reversed_bits(x):
 
 def scrambled(x, seed, pixel, dimension):
     """A 32-bit fraction scrambled, as a 53-bit one, from the definition in Python's integers."""
-    key = mix(pixel ^ mix(seed ^ 0x9E3779B97F4A7C15))
+    key = (mix(pixel ^ mix(seed ^ 0x9E3779B97F4A7C15)) + mix(seed)) & WORD
     key = mix(mix(key ^ ((dimension + 1) * 0xD1342543DE82EF95 & WORD)) ^ 0x510E527FADE682D1)
     x = reversed_bits(x)
     x ^= x * 0x3D20ADEA % 2**32
