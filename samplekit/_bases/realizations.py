@@ -10,6 +10,7 @@ be alike, no image of at most 64 x 64 pixels is a permutation of another (``test
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -101,6 +102,7 @@ class Realizations:
         return Realizations(keys, x, y, self.seed, self.blocks)
 
 
+@lru_cache
 def seed_words(seed: int) -> tuple[np.uint64, np.uint64]:
     """Return the two words that the seed contributes to every key, as :func:`samplekit.kernels.pixel_key` takes them.
 
