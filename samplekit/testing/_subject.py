@@ -229,7 +229,8 @@ class SamplerSubject(Subject):
             pass
         except SamplekitError as error:
             refusal = "refuses what it declares: " if isinstance(error, UsageError) else ""
-            example = self.request(count, out.shape[1], realizations.seed, int(realizations.x[0]))
+            pixel = int(realizations.x[0]), int(realizations.y[0])
+            example = self.request(count, out.shape[1], realizations.seed, pixel)
             raise CheckFailed(f"{refusal}{error}", example) from None
         self.drawn += out.shape[0] * out.shape[2]
         wrong = ~np.isfinite(out)
