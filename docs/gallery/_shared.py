@@ -140,8 +140,11 @@ def beside(renderings: Mapping[str, samplekit.Rendering], title: str, line: str,
 def every_sampler(spp: int) -> Figure:
     """Show the zone plate under every sampler, at ``spp`` samples a pixel or the nearest count below."""
     words = "1 sample" if spp == 1 else f"{spp} samples"
-    lines = f"{words} a pixel, 144 x 144 pixels. Rings around other centres than the upper left corner are aliasing."
-    figure, axes = pixel_grid(4, 6, 144, f"The zone plate under every sampler, {words} a pixel", lines)
+    lines = (
+        f"{words} a pixel, 144 x 144 pixels. The exact image has faint rings around other centres than the upper left",
+        "corner too, since its pixels are that coarse. Stronger ones are aliasing.",
+    )
+    figure, axes = pixel_grid(4, 6, 144, f"The zone plate under every sampler, {words} a pixel", *lines)
     for name, panel in zip(ZONEPLATE_SAMPLERS, axes.flat, strict=True):
         rule = samplekit.sampler(name).spec.counts
         count = next((count for count in range(spp, 0, -1) if rule.allows(count, 2)), None)

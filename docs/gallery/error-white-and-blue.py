@@ -3,7 +3,7 @@ White and blue error
 ====================
 
 Three errors of one size. With random orders of the pixels z-sobol's is blue noise: it has moved to high frequencies,
-where a blur no longer sees it. Its own order leaves less after a blur, as a pattern.
+where a blur leaves a tenth of it. Its own order leaves less after a blur, as a pattern.
 
     samplekit render --scene gaussian:sigma=0.3 --size 256 --spp 1 --sampler z-sobol --output blue.exr && samplekit spectrum --image blue.exr
 """

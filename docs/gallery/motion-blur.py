@@ -2,7 +2,8 @@
 Motion blur through a lens
 ==========================
 
-Five dimensions: what is stratified in pairs is still noisy where motion and lens meet.
+Five dimensions: stratified in pairs or all together, 16 samples leave 0.25 to 0.3 of random's mean squared
+error.
 
     samplekit render --scene motion-blur:aperture=0.05 --size 240 --spp 16 --sampler sobol+owen
 """

@@ -8,6 +8,8 @@ smallest set that shows it.
     samplekit check sobol --quick
 """
 
+from textwrap import fill
+
 import matplotlib.pyplot as plt
 import numpy as np
 from _shared import save
@@ -35,7 +37,7 @@ panels = {
 
 figure, axes = plt.subplots(1, 2, figsize=(7.0, 4.5), layout="constrained")
 figure.suptitle("16 points of a net, and of the same net with one wrong bit")
-figure.supxlabel(f"samplekit check: {outcome.message}", fontsize="small")
+figure.supxlabel(fill(f"samplekit check: {outcome.message}", 100), fontsize="small")
 for panel, (name, points) in zip(axes, panels.items(), strict=True):
     held, _, _ = np.histogram2d(points[:, 1], points[:, 0], bins=(8, 2), range=((0, 1), (0, 1)))
     panel.pcolormesh([0, 0.5, 1], np.linspace(0, 1, 9), held - 1, cmap="seismic", vmin=-8, vmax=8, edgecolors="0.9")

@@ -2,7 +2,7 @@
 lloyd
 =====
 
-Relaxed points: a sharp ring, the beginning of a crystal.
+Relaxed points: a sharp, round ring, and no crystal yet.
 
     samplekit spectrum --sampler lloyd --count 256 --realizations 400 --max-frequency 64
 """

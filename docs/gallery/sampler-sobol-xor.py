@@ -2,7 +2,7 @@
 sobol+xor
 =========
 
-A random digital shift moves no power: the pattern of peaks stays.
+A random digital shift leaves a pattern of peaks, and no power at two of three frequencies, as without it.
 
     samplekit spectrum --sampler sobol+xor --count 256 --realizations 400 --max-frequency 64
 """

@@ -2,7 +2,8 @@
 Every sampler at 1 a pixel
 ==========================
 
-With one sample a pixel every random sampler is the random one; those that are not random alias.
+With one sample a pixel every random sampler has the mean squared error of the random one; those that are not random
+alias.
 
     samplekit render --scene zoneplate:k=300 --size 144 --spp 1 --sampler jittered
 """

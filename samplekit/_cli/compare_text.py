@@ -9,7 +9,8 @@ from samplekit._study.sentences import seconds_in_words
 def lines(results: Results) -> list[str]:
     """Return all lines of text that ``samplekit compare`` prints."""
     size = "the unit square" if results.size == (1, 1) else f"{results.size[0]}x{results.size[1]}"
-    written = [f"{size}, {results.trials} trials, seed {results.seed}, 95 % intervals"]
+    trials = f"{results.trials} trial{'' if results.trials == 1 else 's'}"
+    written = [f"{size}, {trials}, seed {results.seed}, 95 % intervals"]
     for scene in results.scenes:
         rows = [row for row in results.rows if row.scene == scene]
         if not rows:
@@ -36,10 +37,10 @@ def _table(scene: str, rows: list[Row]) -> list[str]:
     width = max(len(row.sampler) for row in rows)
     found = [f"{scene:<{width}}  {'samples':>9}  {'mse':>9}  {'interval':<20}  {'time':>8}"]
     for row in rows:
-        time = "" if row.time is None else seconds_in_words(row.time)
-        line = f"{row.sampler:<{width}}  {row.count:>9}  {_estimate(row.mse):>9}  {_interval(row.mse):<20}  {time:>8}"
+        time = "" if row.time is None or row.time.estimate is None else seconds_in_words(row.time.estimate)
+        line = f"{row.sampler:<{width}}  {row.count:>9}  {_estimate(row.mse):>9}  {_interval(row):<20}  {time:>8}"
         remarks = [row.replaced] if row.replaced else []
-        remarks += [note for note in row.notes if not note.startswith("a single trial")]
+        remarks += row.notes
         found.append("  ".join([line, *remarks]).rstrip())
     return found
 
@@ -63,7 +64,10 @@ def _estimate(interval: Interval) -> str:
     return "-" if interval.estimate is None else f"{interval.estimate:.3g}"
 
 
-def _interval(interval: Interval) -> str:
-    if interval.low is None or interval.high is None:
-        return "no interval"
-    return f"{interval.low:.3g} to {interval.high:.3g}"
+def _interval(row: Row) -> str:
+    low, high = row.mse.low, row.mse.high
+    if row.no_interval:
+        return row.no_interval + ("" if high is None else f", <= {high:.3g}")
+    if low is None or high is None:
+        return "no interval" if high is None else f"at most {high:.3g}"
+    return "exact" if low == high else f"{low:.3g} to {high:.3g}"

@@ -65,6 +65,12 @@ class ConfiguredScene(Configured):
         self.blocks = tuple(self.needs.values())
         self.dims = sum(self.blocks)
         self.finite_variance = bool(self._scene.finite_variance)
+        self.value_range: tuple[float, float] | None = self._ask(
+            "tell the range of its values",
+            lambda: self._scene.value_range,
+            _is_range,
+            "two numbers, the smaller one first, or None",
+        )
 
     def notes(self) -> list[str]:
         """Return what a user of this scene should know; see :meth:`Scene.notes`."""
@@ -166,6 +172,10 @@ class ConfiguredScene(Configured):
         # Values that are not finite are counted and reported; a warning for each would drown that.
         with np.errstate(all="ignore"):
             return self._boundary.call(f"cannot {what}", call, valid, expected)
+
+
+def _is_range(bounds: tuple[float, float] | None) -> bool:
+    return bounds is None or (isinstance(bounds, tuple) and len(bounds) == 2 and bounds[0] <= bounds[1])
 
 
 def _are_needs(needs: dict[str, int]) -> bool:

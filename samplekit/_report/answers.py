@@ -6,8 +6,8 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from samplekit._report.wording import counted, number, seconds
-from samplekit._study.sentences import runs, statements
+from samplekit._report.wording import seconds
+from samplekit._study.sentences import listed, statements
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -20,17 +20,19 @@ _OPEN_END = 4.0
 
 @dataclass(frozen=True)
 class Budget:
-    """A range of times in which one sampler is best.
+    """A range of times in which one sampler is the best, or one of several that nothing tells apart.
 
     Attributes
     ----------
+    samplers
+        Those that may be the best.
     words
         The text about it.
     start, width
         Its place in the strip of all budgets, in percent.
     """
 
-    sampler: str
+    samplers: list[str]
     words: str
     start: float
     width: float
@@ -69,25 +71,18 @@ def answers(results: Results) -> list[Answer]:
 
 
 def budgets(front: Sequence[Choice]) -> list[Budget]:
-    """Return a range for each run of choices of the same sampler, on a logarithmic strip of times."""
+    """Return a range for each choice, on a logarithmic strip of times."""
     if not front or front[0].seconds <= 0.0:
         return []
     begin = math.log(front[0].seconds)
     end = max(math.log(front[-1].seconds * _OPEN_END), begin + 1.25 * (math.log(front[-1].seconds) - begin))
     found = []
-    for run in runs(front):
-        until = run[-1].until
-        left = (math.log(run[0].seconds) - begin) / (end - begin)
-        right = 1.0 if until is None else (math.log(until) - begin) / (end - begin)
-        found.append(Budget(run[0].sampler, _words(run, until), 100.0 * left, 100.0 * (right - left)))
+    for choice in front:
+        left = (math.log(choice.seconds) - begin) / (end - begin)
+        right = 1.0 if choice.until is None else (math.log(choice.until) - begin) / (end - begin)
+        time = f"from {seconds(choice.seconds, 2)}" + (
+            "" if choice.until is None else f" to {seconds(choice.until, 2)}"
+        )
+        words = f"{time}: {listed(choice.samplers, 'or')}"
+        found.append(Budget(choice.samplers, words, 100.0 * left, 100.0 * (right - left)))
     return found
-
-
-def _words(run: Sequence[Choice], until: float | None) -> str:
-    first, last = run[0], run[-1]
-    time = f"from {seconds(first.seconds, 2)}" + ("" if until is None else f" to {seconds(until, 2)}")
-    if first.count == last.count:
-        return f"{time}: {first.sampler}, {counted(first.count, 'sample')}, MSE {number(first.mse, 2)}"
-    least, most = sorted((first.count, last.count))
-    errors = f"MSE {number(first.mse, 2)} to {number(last.mse, 2)}"
-    return f"{time}: {first.sampler}, {least} to {counted(most, 'sample')}, {errors}"

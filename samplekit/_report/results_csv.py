@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from samplekit._study.results import Results, Row
 
-_INTERVALS = ("mse", "rmse", "bias", "variance", "squared_bias", "blurred_mse", "efficiency", "ratio")
+_INTERVALS = ("mse", "rmse", "bias", "variance", "squared_bias", "blurred_mse", "efficiency", "ratio", "time")
 _SECONDS = itertools.product(("points", "scene", "total"), ("cpu", "wall"), ("median", "lower", "upper"))
 _TIMES = (*map(".".join, _SECONDS), "setup_cpu", "setup_wall", "laps")
 """Attributes of the times of a row."""
@@ -44,11 +44,11 @@ def _line(row: Row) -> dict[str, object]:
         "dims": row.dims,
         "samples": row.samples,
         "trials": row.trials,
+        "no_interval": row.no_interval,
     }
     for name in _INTERVALS:
         interval = getattr(row, name) or Interval(None)
         line |= {name: interval.estimate, f"{name}_low": interval.low, f"{name}_high": interval.high}
-    line["time"] = row.time
     for name in _TIMES:
         line[name.replace(".", "_")] = None if row.times is None else attrgetter(name)(row.times)
     line["reference_error"] = float(row.reference_error)

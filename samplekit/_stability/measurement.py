@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from samplekit._integrate.hits import effective_hits
 from samplekit._integrate.loop import integrate, unit_square
 from samplekit._integrate.plan import check_points
 from samplekit._stability.extended import accumulate, distances
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
 ROUNDOFF = 2.0**-53
 """Largest relative error of one rounding to float64."""
 _MOST_DIGITS = 16.0
+_AT_ONCE = 32
+"""Realisations that are measured together: memory does not grow with their number."""
 _KEPT_BYTES = 2**24
 """Size of the array that is freed before the first block; its pages are never touched."""
 
@@ -57,12 +60,16 @@ class Measurement:
     digits_lost
         Decimal digits that summation lost in the worst realisation, beyond one rounding of the mean magnitude.
     magnitude
-        Mean of the magnitudes of all values.
+        Mean of the magnitudes of all values. On a pedestal it is that of both parts, which may cancel.
     deviation
         Standard deviation of the values.
     hits
         Effective number of samples that differ from the most common value: (sum d)² / sum d², where d is the distance
         from the median (Kish 1965, "Survey Sampling"). For the indicator of a set it is the number of samples inside.
+    realizations
+        Number of estimates.
+    effective_realizations
+        Effective number of realisations that carry the spread: see ``samplekit._integrate.hits``. NaN as ``spread``.
     invalid, samples
         Number of values that are not finite, and of all values, over all realisations.
     """
@@ -74,6 +81,7 @@ class Measurement:
     hits: float
     invalid: int
     samples: int
+    realizations: int
     estimate: float = math.nan
     error: float = math.nan
     spread: float = math.nan
@@ -82,6 +90,7 @@ class Measurement:
     sampling_error: float = math.nan
     arithmetic_error: float = math.nan
     digits_lost: float = math.nan
+    effective_realizations: float = math.nan
 
     @property
     def allowance(self) -> float:
@@ -93,7 +102,7 @@ class Measurement:
         """The error beyond the allowance, in standard errors; NaN if there is no standard error."""
         beyond = max(0.0, abs(self.error) - self.allowance)
         if not self.standard_error > 0.0:
-            return 0.0 if beyond == 0.0 else math.nan
+            return 0.0 if self.standard_error == beyond == 0.0 else math.nan
         return math.copysign(beyond / self.standard_error, self.error)
 
     @property
@@ -186,23 +195,27 @@ def measure(
     """
     check_points(scene, sampler, count)
     sampler.prepare(count, scene.dims)
-    trials = sampler.trials(0, realizations, seed, scene.blocks)
     totals, magnitude_totals, moments = np.zeros((realizations, 2)), np.zeros((realizations, 2)), _Moments()
-
-    def observe(tile: Array, boxes: Array) -> None:
-        values = scene.values(tile, boxes)
-        moments.add(values)
-        accumulate(np.ascontiguousarray(np.abs(values)), magnitude_totals)
-        for part in scene.parts(tile, boxes):
-            accumulate(np.ascontiguousarray(part), totals)
-
+    estimates = np.empty(realizations)
     # glibc returns freed memory to the system unless a larger array was freed before, of at most 32 MiB; each block's
     # arrays would then take fresh pages, which costs a seventh of the time.
     np.empty(_KEPT_BYTES, np.uint8)
-    # All realisations share one tile, so the moments are about the median of the first block of all realisations.
-    (estimates,) = integrate(
-        scene, sampler, (count,), trials, unit_square(realizations), tick=tick, observe=observe, tile_bytes=sys.maxsize
-    )
+    for first in range(0, realizations, _AT_ONCE):
+        part = slice(first, min(first + _AT_ONCE, realizations))
+        trials = sampler.trials(part.start, part.stop, seed, scene.blocks)
+
+        def observe(tile: Array, boxes: Array, part: slice = part) -> None:
+            values = scene.values(tile, boxes)
+            moments.add(values)
+            for term in scene.parts(tile, boxes):
+                accumulate(np.ascontiguousarray(term), totals[part])
+                accumulate(np.ascontiguousarray(np.abs(term)), magnitude_totals[part])
+
+        # These realisations share one tile, so the moments are about the median of the first block of all of them.
+        boxes, one_tile = unit_square(len(trials)), sys.maxsize
+        (estimates[part],) = integrate(
+            scene, sampler, (count,), trials, boxes, tick=tick, observe=observe, tile_bytes=one_tile
+        )
     exact = float(reference.image[0, 0])
     magnitudes = magnitude_totals[:, 0] / count
     measured = Measurement(
@@ -213,6 +226,7 @@ def measure(
         hits=moments.hits,
         invalid=moments.invalid,
         samples=count * realizations,
+        realizations=realizations,
     )
     if not np.isfinite(estimates).all():
         return measured
@@ -224,6 +238,7 @@ def measure(
         spread, sampling_error = (_spread(each) if random else math.nan for each in (errors, unrounded))
     return replace(
         measured,
+        effective_realizations=effective_hits(errors, measured.allowance) if random else math.nan,
         estimate=_mean(estimates),
         error=_mean(errors),
         spread=spread,

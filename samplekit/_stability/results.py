@@ -29,6 +29,8 @@ _NUMBERS = (
     "arithmetic_error",
     "sampling_error",
     "hits",
+    "realizations",
+    "effective_realizations",
     "invalid",
     "samples",
 )
@@ -50,7 +52,8 @@ class Cell:
     verdict
         The kind of the cell, and the reason.
     repeated
-        Whether a first measurement was beyond 4 standard errors, and this is a second one with another seed.
+        Whether chance did not explain the error of a first measurement, and this is a second one with another seed and
+        at least 256 realisations.
     """
 
     name: str

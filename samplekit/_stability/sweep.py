@@ -15,7 +15,13 @@ from samplekit._errors import UsageError
 from samplekit._registry import registry
 from samplekit._stability.measurement import Measurement, measure
 from samplekit._stability.results import Cell, Stability, scene_text
-from samplekit._stability.verdict import Verdict, judge
+from samplekit._stability.verdict import (
+    CONFIRMING_BOUND,
+    CONFIRMING_REALIZATIONS,
+    Verdict,
+    chance_bound,
+    judge,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -70,7 +76,8 @@ def stability(
     samplers, counts
         Samplers as on the command line, and the numbers of samples of an estimate.
     realizations
-        Number of independent estimates of each cell.
+        Number of independent estimates of each cell. A cell whose error chance does not explain is measured again, with
+        another seed and at least 256 of them.
     seed
         From 0 to 2^64 - 1.
     output
@@ -108,7 +115,7 @@ def stability(
         reference = scene.reference(edges, edges)
         for sampler in configured:
             for count in counts:
-                outcome = _measure_and_judge(scene, sampler, count, realizations, seed, reference)
+                outcome = measure_and_judge(scene, sampler, count, realizations, seed, reference)
                 cells.append(Cell(name, extreme, sampler.text, count, *outcome))
                 done += count * realizations
                 progress(done, total)
@@ -116,7 +123,7 @@ def stability(
     return swept if output is None else swept.save(output)
 
 
-def _measure_and_judge(
+def measure_and_judge(
     scene: ConfiguredScene,
     sampler: ConfiguredSampler,
     count: int,
@@ -124,16 +131,16 @@ def _measure_and_judge(
     seed: int,
     reference: Reference,
 ) -> tuple[Measurement | None, Verdict, bool]:
-    """Return the measurement and the verdict, and whether a first verdict was ``wrong`` and this is a second one."""
-    repeated = False
-    # A second seed must confirm that an estimate is wrong.
-    for own_seed in (seed, seed ^ (LARGEST_SEED >> 1)):
+    """Return the measurement and the verdict, and whether chance did not explain a first one and this is a second."""
+    bound, repeated = chance_bound(realizations), False
+    while True:
         try:
-            measured = measure(scene, sampler, count, realizations=realizations, seed=own_seed, reference=reference)
+            measured = measure(scene, sampler, count, realizations=realizations, seed=seed, reference=reference)
         except UsageError as error:
             return None, Verdict("refused", str(error)), False
-        verdict = judge(measured, finite_variance=scene.finite_variance)
-        if verdict.kind != "wrong":
-            break
-        repeated = True
-    return measured, verdict, repeated
+        verdict = judge(measured, finite_variance=scene.finite_variance, bound=bound)
+        if repeated or verdict.kind not in ("wrong", "few hits", "no hits") or measured.hits == 0.0:
+            return measured, verdict, repeated
+        # Another seed must confirm it, and enough realisations to see rare events, and not to be equal by chance.
+        seed, realizations = seed ^ (LARGEST_SEED >> 1), max(realizations, CONFIRMING_REALIZATIONS)
+        bound, repeated = CONFIRMING_BOUND, True

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from samplekit._study.errors import errors_of, influence, ratio_of
+from samplekit._study.errors import FEW_TRIALS, INFINITE_VARIANCE, errors_of, influence, ratio_of
 from samplekit._study.fit import fit_line, theoretical_exponent
+from samplekit._study.intervals import LEAST_TRIALS, derived_interval
 from samplekit._study.results import Fit, Interval, LeftOut, Row, Seconds, Spread, Times
-from samplekit._study.trials import TRIALS, Array
+from samplekit._study.trials import SQUARE, TRIALS, Array
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     from samplekit._bases.reference import Reference
     from samplekit._study.combinations import Combination
@@ -72,7 +73,8 @@ class Analysis:
 
     def rows(self) -> list[Row]:
         """Return a row for each combination that has trials."""
-        return [self._row(combination) for combination in self.combinations]
+        errors = {combination: self._errors(combination) for combination in self.combinations}
+        return [self._row(combination, errors) for combination in self.combinations]
 
     def fits(self, rows: Sequence[Row]) -> list[Fit]:
         """Return a fit for each scene and sampler with at least two usable rows.
@@ -87,7 +89,11 @@ class Analysis:
             all_rows = zip(self.combinations, rows, strict=True)
             own = [(self._sums[each], row) for each, row in all_rows if each.pair == pair]
             used = [(sums, row) for sums, row in own if row.fitted]
-            influences = [influence(sums) if np.count_nonzero(sums[:, TRIALS]) > 1 else None for sums, _ in used]
+            one_pixel = self._request.one_pixel
+            influences = [
+                influence(sums, one_pixel=one_pixel) if np.count_nonzero(sums[:, TRIALS]) > 1 else None
+                for sums, _ in used
+            ]
             counts = [row.count for _, row in used]
             line = fit_line(counts, [row.mse.estimate or 0.0 for _, row in used], influences)
             if line is not None:
@@ -98,18 +104,38 @@ class Analysis:
                 fits.append(Fit(*pair, slope, constant, scatter, *ends, counts, left_out, case, theory))
         return fits
 
-    def _row(self, combination: Combination) -> Row:
-        errors = errors_of(self._sums[combination], one_pixel=self._request.one_pixel)
+    def _errors(self, combination: Combination) -> dict[str, Any]:
+        """Return the errors of a combination by their names in a row."""
+        scene, spec = self._resources.scene(combination.scene), self._resources.sampler(combination.sampler).spec
+        reference = self._resources.reference(combination.scene, self._request.size)
+        largest = None
+        if scene.value_range is not None:
+            least, most = scene.value_range
+            largest = float(max(reference.image.max() - least, most - reference.image.min()))
+        return errors_of(
+            self._sums[combination],
+            one_pixel=self._request.one_pixel,
+            random=spec.randomized,
+            unbiased=spec.unbiased,
+            finite_variance=scene.finite_variance,
+            floor=_floor(reference),
+            largest=largest,
+        )
+
+    def _row(self, combination: Combination, errors_of_all: Mapping[Combination, dict[str, Any]]) -> Row:
+        errors = errors_of_all[combination]
         reference = self._resources.reference(combination.scene, self._request.size)
         samples = self._samples(combination)
         times = self._times(combination)
-        time = None if times is None else times.total.cpu.median + self._cost * 1e-9 * samples
+        time = None if times is None else _plus(times.seconds, self._cost * 1e-9 * samples)
         mse: Interval = errors["mse"]
-        left_out = self._why_left_out(combination, mse.estimate, reference)
+        left_out = self._why_left_out(combination, errors["no_interval"], mse.estimate, _floor(reference))
         notes = list(combination.notes)
         if self._done[combination] < combination.trials:
             notes.append(f"interrupted: {self._done[combination]} of {combination.trials} trials")
-        if mse.estimate == 0.0:
+        if errors["no_interval"]:
+            notes.append(self._why_no_interval(combination, errors["no_interval"]))
+        elif mse.estimate == 0.0:
             notes.append("exact: every trial gave the reference to the last bit")
         elif left_out and self._fitted[0] <= combination.count <= self._fitted[1]:
             notes.append(left_out)
@@ -123,9 +149,10 @@ class Analysis:
             replaced=combination.replaced,
             dims=combination.dims,
             samples=samples,
+            shared_draw=combination.shared_draw,
             **errors,
             efficiency=_efficiency(mse, time),
-            ratio=self._ratio(combination),
+            ratio=self._ratio(combination, errors_of_all),
             reference_error=reference.error,
             reference_kind=reference.kind,
             times=times,
@@ -143,8 +170,10 @@ class Analysis:
         pixels = self._resources.pixels(combination.scene, self._request.size)
         return int(pixels.sampled.size) * combination.count
 
-    def _why_left_out(self, combination: Combination, mse: float | None, reference: Reference) -> str:
+    def _why_left_out(self, combination: Combination, no_interval: str, mse: float | None, floor: float) -> str:
         """Return why the fit does not use a row; empty if it does."""
+        if no_interval:
+            return no_interval
         if mse is None:
             return "no finite error"
         first, last = self._fitted
@@ -152,18 +181,33 @@ class Analysis:
             return f"outside of the range of the fit, {first} to {last}"
         if mse == 0.0:
             return "exact: its logarithm is minus infinity"
-        floor = reference.error + _ROUNDING * float(np.nan_to_num(np.abs(reference.image)).max(initial=0.0))
         if math.sqrt(mse) <= _TRUSTED * floor:
             rmse = f"{math.sqrt(mse):.1g}"
             return f"its rmse of {rmse} is not above {_TRUSTED:g} times the reference's own error of {floor:.1g}"
         return ""
 
-    def _ratio(self, combination: Combination) -> Interval | None:
+    def _why_no_interval(self, combination: Combination, reason: str) -> str:
+        """Return a sentence that explains why the errors of a row have no interval."""
+        sums = self._sums[combination]
+        if reason == "no hits":
+            error = sums[:, SQUARE].sum() / sums[:, TRIALS].sum()
+            return f"all trials gave one value, whose mse is {error:.3g}: nothing tells the errors of the next ones"
+        return {
+            "few hits": "too few trials found what makes up the error",
+            FEW_TRIALS: f"an interval needs {LEAST_TRIALS} trials of one pixel, or 2 of an image",
+            INFINITE_VARIANCE: "the mean of the squares does not settle",
+        }[reason]
+
+    def _ratio(self, combination: Combination, errors: Mapping[Combination, dict[str, Any]]) -> Interval | None:
         """Return the mean squared error relative to that of the first sampler; None if it has no such row."""
         first = self._request.samplers[0], combination.scene, combination.count
         for other in self.combinations:
             if (other.sampler, other.scene, other.count) == first:
-                return Interval(1.0) if other is combination else ratio_of(self._sums[combination], self._sums[other])
+                if other is combination:
+                    return Interval(1.0, 1.0, 1.0)
+                ratio = ratio_of(self._sums[combination], self._sums[other], one_pixel=self._request.one_pixel)
+                known = not (errors[combination]["no_interval"] or errors[other]["no_interval"])
+                return ratio if known or ratio is None else Interval(ratio.estimate)
         return None
 
     def _times(self, combination: Combination) -> Times | None:
@@ -172,7 +216,14 @@ class Analysis:
             return None
         points, scene = (Seconds(_spread(laps[:, column]), _spread(laps[:, column + 1])) for column in (0, 2))
         total = Seconds(_spread(laps[:, 0] + laps[:, 2]), _spread(laps[:, 1] + laps[:, 3]))
-        return Times(points, scene, total, *self._store.setup(combination), len(laps))
+        half = 1.57 * (total.cpu.upper - total.cpu.lower) / math.sqrt(len(laps))
+        seconds = Interval(total.cpu.median, total.cpu.median - half, total.cpu.median + half)
+        return Times(points, scene, total, *self._store.setup(combination), len(laps), len(laps), seconds)
+
+
+def _floor(reference: Reference) -> float:
+    """Return the largest error that rounding and the reference may cause in a pixel."""
+    return float(reference.error + _ROUNDING * np.nan_to_num(np.abs(reference.image)).max(initial=0.0))
 
 
 def _spread(seconds: Array) -> Spread:
@@ -180,8 +231,13 @@ def _spread(seconds: Array) -> Spread:
     return Spread(median, lower, upper)
 
 
-def _efficiency(mse: Interval, time: float | None) -> Interval | None:
-    if not time or not mse.estimate:
+def _efficiency(mse: Interval, time: Interval | None) -> Interval | None:
+    if time is None or not time.estimate or not mse.estimate:
         return None
-    low, high = (1.0 / (end * time) if end else None for end in (mse.high, mse.low))
-    return Interval(1.0 / (mse.estimate * time), low, high)
+    if not (mse.low and mse.high and time.low and time.high):
+        return Interval(1.0 / (mse.estimate * time.estimate))
+    return derived_interval(lambda error, seconds: 1.0 / (error * seconds), [mse, time])
+
+
+def _plus(time: Interval, seconds: float) -> Interval:
+    return Interval(*(end if end is None else end + seconds for end in (time.estimate, time.low, time.high)))

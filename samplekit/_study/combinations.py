@@ -123,12 +123,10 @@ def _combination(
     spec = sampler.spec
     if not spec.randomized:
         trials = 1
-        notes.append("not random: every trial is the same, so one was made, and errors have no interval")
+        notes.append("not random: every trial is the same, so one was made, and its errors are exact")
     elif request.one_pixel and spec.period is not None and spec.period < trials:
         trials = spec.period
         notes.append(f"has only {spec.period} sets, so only {spec.period} trials were made")
-    if request.trials == 1 and spec.randomized:
-        notes.append("a single trial: errors have no interval")
     if not spec.unbiased:
         notes.append("biased: its mean over realisations is not the integral")
     return Combination(

@@ -7,13 +7,39 @@ from typing import Any
 
 import numpy as np
 
-from samplekit._study.intervals import mean_interval, positive_interval, student
-from samplekit._study.results import Interval
+from samplekit._integrate.hits import describe_hits, effective_hits
+from samplekit._study.intervals import (
+    LEAST_TRIALS,
+    far_student,
+    mean_and_error,
+    mean_interval,
+    positive_interval,
+    raised_variance,
+    student,
+)
+from samplekit._study.results import LEVEL, Interval
 from samplekit._study.trials import BLURRED, ERROR, INVALID, PAIRS, PRODUCT, SQUARE, TRIALS, Array
 
+FEW_TRIALS, INFINITE_VARIANCE = "few trials", "infinite variance"
 
-def errors_of(sums: Array, *, one_pixel: bool) -> dict[str, Any]:
+
+def errors_of(
+    sums: Array,
+    *,
+    one_pixel: bool,
+    random: bool = True,
+    unbiased: bool = True,
+    finite_variance: bool = True,
+    floor: float = 0.0,
+    largest: float | None = None,
+) -> dict[str, Any]:
     """Return the errors of a combination by the names that they have in :class:`samplekit._study.results.Row`.
+
+    An interval says something about the next trials only if these trials found what makes up the error. They did not
+
+    - if all of them gave one value, and it is not the mean of the scene: no hits;
+    - if few of them differ from the others (:func:`samplekit._integrate.hits.describe_hits`): few hits;
+    - if the mean of an unbiased sampler is too many standard errors from the known mean of the scene: few hits.
 
     Parameters
     ----------
@@ -21,31 +47,125 @@ def errors_of(sums: Array, *, one_pixel: bool) -> dict[str, Any]:
         float64[B, COLUMNS]: its batches in the order of their trials.
     one_pixel
         Whether the trials are estimates of the unit square; otherwise they are images.
+    random, unbiased
+        Whether the sampler is random, and whether its mean over realisations is the integral.
+    finite_variance
+        Whether the values of the scene have a finite variance.
+    floor
+        Largest error that rounding and the reference may cause in a pixel.
+    largest
+        Largest error that an estimate of a pixel can have; None: not known.
     """
     trials = sums[:, TRIALS]
-    mse = positive_interval(sums[:, SQUARE], trials, one_pixel=one_pixel)
+    number = int(trials.sum())
     pairs = _whole_pairs(sums)
-    return {
-        "trials": int(trials.sum()),
+    mse = positive_interval(sums[:, SQUARE], trials, one_pixel=one_pixel, missed=_missed(sums) if unbiased else 1.0)
+    variance = _variance_of_pixel(sums) if one_pixel else _variance_from_pairs(pairs)
+    found: dict[str, Any] = {
         "mse": mse,
-        "rmse": _square_root(mse),
         "bias": mean_interval(sums[:, ERROR], trials),
-        "variance": _variance_of_pixel(sums) if one_pixel else _variance_from_pairs(pairs),
-        "squared_bias": mean_interval(pairs[:, PRODUCT], pairs[:, PAIRS]),
+        "variance": variance,
+        "squared_bias": _difference(mse, variance, mean_interval(pairs[:, PRODUCT], pairs[:, PAIRS])),
         "blurred_mse": None if one_pixel else positive_interval(sums[:, BLURRED], trials, one_pixel=False),
+    }
+    no_interval = ""
+    if not random:
+        found |= {"variance": Interval(0.0), "squared_bias": mse}
+        found = {name: each and Interval(each.estimate, each.estimate, each.estimate) for name, each in found.items()}
+    elif number:
+        no_interval = "" if finite_variance else INFINITE_VARIANCE
+        no_interval = no_interval or _judge_hits(sums, one_pixel=one_pixel, unbiased=unbiased, floor=floor)
+        if not no_interval and number < (LEAST_TRIALS if one_pixel else 2):
+            no_interval = FEW_TRIALS
+        if no_interval:
+            found = {name: each and Interval(each.estimate) for name, each in found.items()}
+        if no_interval == "no hits":
+            found = {name: each and Interval(None) for name, each in found.items()}
+            found["mse"] = Interval(None, None, _bound_from_no_events(mse, number, largest))
+        elif mse.estimate is not None and math.sqrt(mse.estimate) <= floor:
+            # Every trial is right up to rounding. The next one may be of another kind.
+            found["mse"] = Interval(mse.estimate, 0.0, _bound_from_no_events(mse, number, largest))
+    return {
+        "trials": number,
+        "no_interval": no_interval,
+        **found,
+        "rmse": _square_root(found["mse"]),
         "invalid_pixels": int(sums[:, INVALID].sum()),
     }
 
 
-def influence(sums: Array) -> Array:
-    """Return what each batch float64[B] adds to the relative deviation of the mean square; the total is 0."""
+def _judge_hits(sums: Array, *, one_pixel: bool, unbiased: bool, floor: float) -> str:
+    """Return ``no hits``, ``few hits`` or nothing: whether the trials found what makes up the error."""
+    own = sums[sums[:, TRIALS] > 0.0]
+    if len(own) < 2:
+        return ""
+    values = own[:, ERROR if one_pixel else SQUARE] / own[:, TRIALS]
+    largest = float(np.abs(values).max())
+    hits = describe_hits(effective_hits(values, floor if one_pixel else 2.0 * floor * math.sqrt(largest)), len(own))
+    if hits == "no hits":
+        return hits if largest > (floor if one_pixel else floor * floor) else ""
+    if hits:
+        return hits
+    mean, error = mean_and_error(own[:, ERROR], own[:, TRIALS])
+    # Two images can have equal means by chance: a standard error of 0 tells nothing.
+    far = unbiased and mean is not None and error and abs(mean) > floor + far_student(len(own) - 1) * error
+    return "few hits" if far else ""
+
+
+def _bound_from_no_events(seen: Interval, trials: int, largest: float | None) -> float | None:
+    """Return a one-sided 95 % bound of the mean square if all trials gave the same: the next may be of another kind.
+
+    If a share q of all trials differ, none of T does with probability (1 - q)^T, which is 5 % for the q used here.
+    """
+    if largest is None or seen.estimate is None:
+        return None
+    share = 1.0 - float((1.0 - LEVEL) ** (1.0 / trials))
+    return (1.0 - share) * seen.estimate + share * largest * largest
+
+
+def _missed(sums: Array) -> float:
+    """Return by how much the mean square rises, as a factor, if the mean error is set to 0, which it is known to be."""
+    trials = sums[:, TRIALS]
+    total = float(trials.sum())
+    square = float(sums[:, SQUARE].sum())
+    if not total or not 0.0 < square < math.inf:
+        return 1.0
+    error = float(sums[:, ERROR].sum()) / total
+    deviations = sums[:, ERROR] - trials * error
+    spread = float(deviations @ deviations)
+    slope = float(deviations @ (sums[:, SQUARE] - trials * (square / total))) / spread if spread > 0.0 else 0.0
+    return max(1.0, 1.0 - slope * error * total / square)
+
+
+def _difference(mse: Interval, variance: Interval, by_pairs: Interval) -> Interval:
+    """Return mse - variance, with the width of the interval of the products of pairs, which have the same mean."""
+    if mse.estimate is None or variance.estimate is None:
+        return Interval(None)
+    difference = mse.estimate - variance.estimate
+    if by_pairs.estimate is None or by_pairs.low is None or by_pairs.high is None:
+        return Interval(difference)
+    half = by_pairs.high - by_pairs.estimate
+    return Interval(difference, difference - half, difference + half)
+
+
+def influence(sums: Array, *, one_pixel: bool) -> Array:
+    """Return what each batch float64[B] adds to the relative deviation of the mean square; the total is 0.
+
+    For one pixel the deviations are raised as in :func:`samplekit._study.intervals.positive_interval`: few trials tend
+    to miss the large ones.
+    """
     squares, trials = sums[:, SQUARE], sums[:, TRIALS]
-    mean = float(np.sum(squares)) / trials.sum()
-    deviations: Array = (squares - trials * mean) / (mean * trials.sum())
+    number = float(trials.sum())
+    mean = float(np.sum(squares)) / number
+    deviations: Array = (squares - trials * mean) / (mean * number)
+    batches = int(np.count_nonzero(trials))
+    observed = float(deviations @ deviations) * batches * batches / max(batches - 1, 1)
+    if one_pixel and observed > 0.0:
+        deviations *= math.sqrt(raised_variance(observed, batches, number / batches) / observed)
     return deviations
 
 
-def ratio_of(sums: Array, baseline: Array) -> Interval | None:
+def ratio_of(sums: Array, baseline: Array, *, one_pixel: bool) -> Interval | None:
     """Return the mean square relative to that of another sampler whose trials have the same seeds.
 
     The interval is narrower where the trials of both samplers are correlated; otherwise they count as independent.
@@ -54,6 +174,8 @@ def ratio_of(sums: Array, baseline: Array) -> Interval | None:
     ----------
     sums, baseline
         float64[B, COLUMNS]: the batches of the sampler and of the other one.
+    one_pixel
+        Whether the trials are estimates of the unit square; otherwise they are images.
 
     Returns
     -------
@@ -62,7 +184,7 @@ def ratio_of(sums: Array, baseline: Array) -> Interval | None:
     mean, other = (float(np.nan_to_num(s[:, SQUARE].sum() / max(s[:, TRIALS].sum(), 1.0))) for s in (sums, baseline))
     if not (mean > 0.0 and other > 0.0 and math.isfinite(mean / other)):
         return None
-    mine, theirs = influence(sums), influence(baseline)
+    mine, theirs = (influence(each, one_pixel=one_pixel) for each in (sums, baseline))
     counts = [np.count_nonzero(s[:, TRIALS]) for s in (sums, baseline)]
     if min(counts) < 2:
         return Interval(mean / other)

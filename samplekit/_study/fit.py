@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from samplekit._study.trials import Array
 
 
+_LARGEST = 709.0
+"""Largest number whose exponential is a float."""
 _CASES = {"disk": "worst", "gaussian": "best"}
 _EXPONENTS: dict[str, dict[str, float]] = {
     "random": {"worst": -1.0, "best": -1.0},
@@ -50,7 +52,7 @@ def theoretical_exponent(scene: str, sampler: str) -> tuple[str | None, float | 
 
 def fit_line(
     counts: Sequence[int], mses: Sequence[float], influences: Sequence[Array | None]
-) -> tuple[Interval, float, float] | None:
+) -> tuple[Interval, float | None, float] | None:
     """Fit a line to the logarithms of rows.
 
     Parameters
@@ -75,7 +77,9 @@ def fit_line(
     weights = _weigh(known, scatter)
     coefficients, intercept = _line_coefficients(x, weights)
     slope = float(coefficients @ y)
-    constant = math.exp(float(intercept @ y))
+    # A steep line through large counts leaves the range of floats before one sample.
+    logarithm = float(intercept @ y)
+    constant = math.exp(logarithm) if logarithm < _LARGEST else None
     by_trials = float(coefficients @ covariance @ coefficients)
     by_scatter = scatter * float(coefficients @ coefficients)
     total = by_trials + by_scatter

@@ -1,17 +1,30 @@
-"""Rank the samplers: the time to a target error, the best choice for a budget, and where the order changes."""
+"""Rank the samplers: the samples and time to a target error, the best for a budget, and where the order changes.
+
+Nothing here names a winner beyond the intervals. An interval without an end is open on that side.
+"""
 
 from __future__ import annotations
 
 import itertools
 import math
+from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, NamedTuple
 
-from samplekit._study.results import Choice, Crossing, Flip, ToTarget
+import numpy as np
+
+from samplekit._study.errors import FEW_TRIALS
+from samplekit._study.intervals import derived_interval
+from samplekit._study.results import Choice, Crossing, Flip, Interval, Lead, ToTarget
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Callable, Iterable, Mapping, Sequence
 
     from samplekit._study.results import Row
+
+
+_STEPS = 17
+"""Points of a curve from a row to the next, both included."""
 
 
 class Ranking(NamedTuple):
@@ -32,184 +45,248 @@ def rank(rows: Sequence[Row], target: float | None, cost: float) -> Ranking:
     rows
         The rows of a study.
     target
-        The target error for all scenes; None: for each scene the smallest error that all samplers reach.
+        The target error for all scenes; None: for each scene the smallest error that all samplers certainly reach.
     cost
         Extra cost per sample in nanoseconds that the times of the rows already include.
     """
     found = Ranking({}, [], [], [], [])
     for scene in dict.fromkeys(row.scene for row in rows):
-        own = [row for row in rows if row.scene == scene]
         curves: dict[str, list[Row]] = {}
-        for row in own:
-            curves.setdefault(row.sampler, []).append(row)
+        for row in rows:
+            if row.scene == scene:
+                curves.setdefault(row.sampler, []).append(row)
         error = target if target is not None else _common_error(curves.values())
         if error is not None:
             found.target[scene] = error
-            needs = [_to_target(curve, error) for curve in curves.values()]
-            found.to_target.extend(needs)
-            found.flips.extend(_flips(needs, own[0].samples / own[0].count, cost))
-        found.front.extend(_front(own))
-        pairs = itertools.combinations(curves.values(), 2)
-        crossings = [crossing for one, other in pairs for crossing in _crossings(one, other)]
-        found.crossings.extend(sorted(crossings, key=lambda crossing: crossing.count))
+            needs = {sampler: _Need(curve, error, cost) for sampler, curve in curves.items()}
+            found.to_target.extend(
+                ToTarget(scene, sampler, error, need.count, need.seconds(cost)) for sampler, need in needs.items()
+            )
+            found.flips.extend(_flips(scene, error, needs))
+        found.front.extend(_front(scene, curves))
+        for pair in itertools.combinations(curves, 2):
+            leads = _leads(*(curves[sampler] for sampler in pair))
+            if len({lead.sampler for lead in leads}) > 1:
+                found.crossings.append(Crossing(scene, pair, leads))
     return found
+
+
+def may_be_least(numbers: Sequence[Interval]) -> list[bool]:
+    """Return for each number whether it may be the smallest: no other is certainly smaller.
+
+    Numbers without any interval may be, but if no interval has an upper end, nothing is known and the list has no True.
+    """
+    bound = min((each.high for each in numbers if each.high is not None), default=-math.inf)
+    return [bound > -math.inf and (each.low is None or each.low <= bound) for each in numbers]
 
 
 def _common_error(curves: Iterable[Sequence[Row]]) -> float | None:
-    """Return the smallest error that all samplers reach; None if it is 0 or there is none."""
-    errors = [[row.mse.estimate for row in curve if row.mse.estimate is not None] for curve in curves]
-    return max((min(each) for each in errors if each), default=0.0) or None
+    """Return the smallest error, rounded up, that all samplers certainly reach; None if it is 0 or there is none."""
+    ends = [[row.mse.high for row in curve if row.mse.high is not None and not row.no_interval] for curve in curves]
+    if not any(ends):
+        ends = [
+            [row.mse.estimate for row in curve if row.no_interval == FEW_TRIALS and row.mse.estimate]
+            for curve in curves
+        ]
+    error = max((min(each) for each in ends if each), default=0.0)
+    if not error > 0.0:
+        return None
+    rounded = float(f"{error:.1e}")
+    return rounded if rounded >= error else float(f"{error * 1.1:.1e}")
 
 
-def _to_target(rows: Sequence[Row], target: float) -> ToTarget:
-    """Find the target between two of the rows of a sampler, whose counts rise."""
-    pair = rows[0].scene, rows[0].sampler
-    previous: Row | None = None
-    for row in rows:
-        mse = row.mse.estimate
-        if mse is not None and mse <= target * (1.0 + 1e-12):
-            if previous is None:
-                note = "its smallest count is already below the target" if mse < target else ""
-                return ToTarget(*pair, target, float(row.count), row.time, note)
-            share = _share(previous.mse.estimate or 0.0, mse, target)
-            count = _between(previous.count, row.count, share)
-            seconds = None if previous.time is None or row.time is None else _between(previous.time, row.time, share)
-            return ToTarget(*pair, target, count, seconds, "")
-        if mse is not None:
-            previous = row
-    return ToTarget(*pair, target, None, None, f"does not reach the target with {rows[-1].count} samples")
+class _Need:
+    """The samples of a sampler at which its curve, and those of the ends of its intervals, first reach a target.
 
-
-def _share(above: float, below: float, target: float) -> float:
-    """Return how far the target lies from ``above`` to ``below``, in logarithms: 0 to 1."""
-    if below <= 0.0:
-        return 1.0
-    return math.log(above / target) / math.log(above / below)
-
-
-def _between(first: float, second: float, share: float) -> float:
-    """Return the number that lies this far from ``first`` to ``second``, in logarithms."""
-    if first <= 0.0 or second <= 0.0:
-        return first + share * (second - first)
-    return first * math.pow(second / first, share)
-
-
-def _front(rows: Sequence[Row]) -> list[Choice]:
-    """Return the best choices for rising budgets of time: the rows that no other beats in both time and error.
-
-    A slower row becomes the choice if its error is smaller by more than the intervals leave open. It replaces the
-    choice before it if the quartiles of their times overlap. So noise alone does not make samplers alternate.
-    """
-    timed = [row for row in rows if row.time is not None and row.mse.estimate is not None]
-    best: list[Row] = []
-    for row in sorted(timed, key=lambda row: (row.time or 0.0, row.mse.estimate or 0.0)):
-        if best and not _is_clearly_better(row, best[-1]):
-            continue
-        while best and _is_as_fast(row, best[-1]):
-            best.pop()
-        best.append(row)
-    ends = [*(row.time for row in best[1:]), None]
-    return [
-        Choice(row.scene, row.sampler, row.count, row.mse.estimate or 0.0, row.time or 0.0, until)
-        for row, until in zip(best, ends, strict=False)
-    ]
-
-
-def _is_clearly_better(row: Row, other: Row) -> bool:
-    estimate, bar = row.mse.estimate or 0.0, other.mse.estimate or 0.0
-    high = row.mse.high if row.mse.high is not None else estimate
-    low = other.mse.low if other.mse.low is not None else bar
-    return estimate < bar and high < low
-
-
-def _is_as_fast(row: Row, other: Row) -> bool:
-    """Return whether the quartiles of the times overlap; ``row`` is the slower one."""
-    if row.times is None or other.times is None:
-        return False
-    spread, earlier = row.times.total.cpu, other.times.total.cpu
-    added = (row.time or 0.0) - spread.median, (other.time or 0.0) - earlier.median
-    return spread.lower + added[0] <= earlier.upper + added[1]
-
-
-class _Need(NamedTuple):
-    """The samples of all pixels, and the seconds without the extra cost, that a sampler needs for the target."""
-
-    sampler: str
-    samples: float
-    seconds: float
-
-    def at(self, cost: float) -> float:
-        """Return the seconds at an extra cost per sample in nanoseconds."""
-        return self.seconds + cost * 1e-9 * self.samples
-
-
-def _flips(to_target: Sequence[ToTarget], pixels: float, cost: float) -> list[Flip]:
-    """Return the costs per sample at which two samplers change places, costs rising.
-
-    Parameters
+    Attributes
     ----------
-    to_target
-        What each sampler needs on the scene.
-    pixels
-        Number of pixels of the scene that are sampled.
-    cost
-        Extra cost per sample in nanoseconds that the seconds already include.
+    count
+        The number of samples of a pixel; see :class:`ToTarget`.
     """
-    needs = [
-        _Need(need.sampler, need.count * pixels, need.seconds - cost * 1e-9 * need.count * pixels)
-        for need in to_target
-        if need.count and need.seconds
-    ]
-    flips = []
-    for pair in itertools.combinations(needs, 2):
-        # A higher cost per sample favours the one with fewer samples.
-        fewer, more = sorted(pair, key=lambda need: need.samples)
-        if fewer.samples == more.samples:
-            continue
-        at = (fewer.seconds - more.seconds) / (more.samples - fewer.samples) * 1e9
-        if at > 0.0:
-            leads = fewer.at(at) <= min(need.at(at) for need in needs) * (1.0 + 1e-9)
-            flips.append(Flip(to_target[0].scene, to_target[0].target, at, more.sampler, fewer.sampler, leads))
-    return sorted(flips, key=lambda flip: flip.cost)
+
+    def __init__(self, rows: Sequence[Row], target: float, cost: float) -> None:
+        known = [row for row in rows if row.mse.estimate is not None and row.no_interval in ("", FEW_TRIALS)]
+        estimate = _reach([(row.count, row.mse.estimate or 0.0) for row in known], target)
+        low = _reach(_ends_of(rows, lambda mse: 0.0 if mse.low is None else mse.low), target)
+        high = _reach(_ends_of(rows, lambda mse: math.inf if mse.high is None else mse.high), target)
+        first, last = rows[0].count, rows[-1].count
+        if low is None:
+            self.count = Interval(None, float(last), None)
+        else:
+            inside = estimate if estimate is not None and estimate > first else None
+            self.count = Interval(inside, low if low > first else None, high)
+        self.pixels = rows[0].samples / rows[0].count
+        self._own = [(row.count, _without(row.time, cost * 1e-9 * row.samples)) for row in rows if row.time is not None]
+
+    def seconds_at(self, samples: float, share: float = 1.0, cost: float = 0.0) -> float:
+        """Return the seconds of so many samples of a pixel, on straight lines in logarithms between the rows.
+
+        Parameters
+        ----------
+        samples, cost
+            Samples of a pixel, and the extra cost of each in nanoseconds.
+        share
+            A factor of the measured times.
+        """
+        counts = np.log([count for count, _ in self._own])
+        seconds = np.log([time.estimate or 1.0 for _, time in self._own])
+        measured = math.exp(float(np.interp(math.log(samples), counts, seconds)))
+        return measured * share + cost * 1e-9 * samples * self.pixels
+
+    @property
+    def samples(self) -> float:
+        """The number of samples, or a bound of it if only that is known; 0 if nothing is."""
+        return next((each for each in (self.count.estimate, self.count.high, self.count.low) if each is not None), 0.0)
+
+    @property
+    def time_share(self) -> Interval | None:
+        """The interval of the measured times near ``count``, relative to their estimates; None if there is none."""
+        place = sum(count < self.samples for count, _ in self._own)
+        near = [time for _, time in self._own[max(place - 1, 0) : place + 1]]
+        ends = [(time.estimate, time.low, time.high) for time in near if time.estimate and time.low and time.high]
+        if not near or len(ends) < len(near):
+            return None
+        return Interval(
+            1.0, min(low / middle for middle, low, _ in ends), max(high / middle for middle, _, high in ends)
+        )
+
+    def seconds(self, cost: float) -> Interval:
+        """Return the seconds that the sampler needs; the ends allow for the samples and for the measured times."""
+        count, share, samples = self.count, self.time_share, self.samples
+        if not self._own or not samples:
+            return Interval(None)
+        if share is None:
+            return Interval(None if count.estimate is None else self.seconds_at(samples, 1.0, cost))
+        closed = Interval(samples, count.low or samples, count.high or samples)
+        found = derived_interval(lambda number, factor: self.seconds_at(number, factor, cost), [closed, share])
+        return Interval(
+            None if count.estimate is None else found.estimate,
+            None if count.low is None else found.low,
+            None if count.high is None else found.high,
+        )
 
 
-def _crossings(one: Sequence[Row], other: Sequence[Row]) -> list[Crossing]:
-    """Return where the error curves of two samplers cross, as far as their intervals can tell, counts rising.
+def _without(time: Interval, seconds: float) -> Interval:
+    """Return a time less a known one."""
+    return Interval(*(end if end is None else end - seconds for end in (time.estimate, time.low, time.high)))
 
-    They are compared at the counts that both have.
+
+def _is_closed(interval: Interval) -> bool:
+    return None not in (interval.estimate, interval.low, interval.high)
+
+
+def _is_below(one: Interval, other: Interval) -> bool:
+    """Return whether a number is certainly smaller than another."""
+    return one.high is not None and other.low is not None and one.high < other.low
+
+
+def _ends_of(rows: Sequence[Row], end: Callable[[Interval], float]) -> list[tuple[float, float]]:
+    """Return the curve of one end of the intervals: counts and errors, at and between the rows.
+
+    Between two rows the error is interpolated in logarithms, and its deviation follows from theirs: they add up if both
+    rows come from the same draws, and their squares do if the rows are independent.
     """
-    by_count = {row.count: row for row in other}
-    common = [(row, by_count[row.count]) for row in one if row.count in by_count]
-    common = [pair for pair in common if all(row.mse.estimate for row in pair)]
-    found = []
-    previous: tuple[int, int] | None = None
-    for place, (mine, theirs) in enumerate(common):
-        sign = _compare(mine, theirs)
-        if sign == 0:
+    curve: list[tuple[float, float]] = []
+    for row, following in zip(rows, [*rows[1:], None], strict=True):
+        curve.append((row.count, end(row.mse)))
+        numbers = [number for each in (row, following) if each for number in (each.mse.estimate or 0.0, end(each.mse))]
+        if following is None or min(numbers) <= 0.0 or not max(numbers) < math.inf:
             continue
-        if previous is not None and sign != previous[1]:
-            fewer, more = (mine, theirs) if previous[1] < 0 else (theirs, mine)
-            between = common[previous[0] : place + 1]
-            last, first = between[0][0].count, between[-1][0].count
-            found.append(Crossing(mine.scene, fewer.sampler, more.sampler, last, first, _crossing_count(between)))
-        previous = place, sign
+        middle, here, next_middle, there = map(math.log, numbers)
+        for share in np.linspace(0.0, 1.0, _STEPS)[1:-1].tolist():
+            deviations = (1.0 - share) * (here - middle), share * (there - next_middle)
+            size = abs(sum(deviations)) if row.shared_draw else math.hypot(*deviations)
+            error = (1.0 - share) * middle + share * next_middle + math.copysign(size, here - middle)
+            curve.append((row.count * (following.count / row.count) ** share, math.exp(error)))
+    return curve
+
+
+def _reach(curve: Sequence[tuple[float, float]], target: float) -> float | None:
+    """Return where a curve of counts and errors first reaches the target; None if it does not.
+
+    Between its points it is a straight line in logarithms.
+    """
+    before, above = 0.0, math.inf
+    for count, error in curve:
+        if error <= target * (1.0 + 1e-12):
+            if not math.isfinite(above):
+                return count
+            # An error of 0 may be reached anywhere between the two counts.
+            share = math.log(above / target) / math.log(above / error) if error > 0.0 else 0.0
+            return float(before * math.pow(count / before, share))
+        before, above = count, error
+    return None
+
+
+def _front(scene: str, curves: Mapping[str, Sequence[Row]]) -> list[Choice]:
+    """Return for rising budgets of time the samplers that may have the smallest error.
+
+    A row is certainly within a budget if the upper end of its time is, and possibly if the lower end is. A sampler may
+    be the best unless another one, with a row that is certainly within the budget, certainly has a smaller error than
+    all rows of the first that are possibly within it.
+    """
+    rows = [row for curve in curves.values() for row in curve if row.time is not None]
+    ends = [end for row in rows if row.time is not None for end in (row.time.low, row.time.high) if end is not None]
+    found: list[Choice] = []
+    for budget in sorted(set(ends)):
+        errors = [_within(budget, curve) for curve in curves.values()]
+        best = [sampler for sampler, may in zip(curves, may_be_least(errors), strict=True) if may]
+        if best and not (found and found[-1].samplers == best):
+            if found:
+                found[-1] = replace(found[-1], until=budget)
+            found.append(Choice(scene, best, budget, None))
     return found
 
 
-def _compare(mine: Row, theirs: Row) -> int:
-    """Return -1 if the first has the smaller error, 1 if the second has, 0 if their intervals cannot tell."""
-    if None in (mine.mse.low, mine.mse.high, theirs.mse.low, theirs.mse.high):
-        return 0
-    if (mine.mse.high or 0.0) < (theirs.mse.low or 0.0):
-        return -1
-    return int((theirs.mse.high or 0.0) < (mine.mse.low or 0.0))
+def _within(budget: float, curve: Sequence[Row]) -> Interval:
+    """Return the interval of the smallest error of a sampler within a budget; its low end is infinite without rows."""
+    low, high = math.inf, math.inf
+    for row in curve:
+        if row.time is not None and (row.time.low is None or row.time.low <= budget):
+            low = min(low, 0.0 if row.mse.low is None else row.mse.low)
+            if row.time.high is not None and row.time.high <= budget and row.mse.high is not None:
+                high = min(high, row.mse.high)
+    return Interval(None, low, high if high < math.inf else None)
 
 
-def _crossing_count(between: Sequence[tuple[Row, Row]]) -> float:
-    """Return the first count at which the ratio of the errors is 1, interpolated in logarithms."""
-    ratios = [math.log((mine.mse.estimate or 1.0) / (theirs.mse.estimate or 1.0)) for mine, theirs in between]
-    for (low, high), (before, after) in zip(itertools.pairwise(between), itertools.pairwise(ratios), strict=True):
-        if before * after <= 0.0 and before != after:
-            share = before / (before - after)
-            return float(low[0].count * (high[0].count / low[0].count) ** share)
-    return float(between[-1][0].count)
+def _flips(scene: str, target: float, needs: Mapping[str, _Need]) -> list[Flip]:
+    """Return the costs per sample at which two samplers change places, costs rising."""
+    flips = []
+    for below, above in itertools.permutations(needs, 2):
+        more, fewer = needs[below], needs[above]
+        shares = more.time_share, fewer.time_share
+        # A higher cost per sample favours the one with fewer samples.
+        if not _is_below(fewer.count, more.count) or not _is_below(more.seconds(0.0), fewer.seconds(0.0)):
+            continue
+        if not (_is_closed(fewer.count) and _is_closed(more.count)) or None in shares:
+            continue
+
+        def at(many: float, few: float, many_share: float, few_share: float, more: _Need, fewer: _Need) -> float:
+            saved = fewer.seconds_at(few, few_share) - more.seconds_at(many, many_share)
+            return saved / ((many - few) * more.pixels) * 1e9
+
+        inputs = [more.count, fewer.count, *(share for share in shares if share is not None)]
+        cost = derived_interval(partial(at, more=more, fewer=fewer), inputs)
+        there = [need.seconds(cost.estimate or 0.0) for need in (more, fewer)]
+        others = [need.seconds(cost.estimate or 0.0) for name, need in needs.items() if name not in (below, above)]
+        leads = not any(_is_below(other, own) for other in others for own in there)
+        flips.append(Flip(scene, target, cost, below, above, leads))
+    return sorted(flips, key=lambda flip: flip.cost.estimate or 0.0)
+
+
+def _leads(one: Sequence[Row], other: Sequence[Row]) -> list[Lead]:
+    """Return where the intervals of two samplers tell which has the smaller error, at the counts that both have."""
+    by_count = {row.count: row for row in other}
+    found: list[Lead] = []
+    joined = False
+    for mine in one:
+        theirs = by_count.get(mine.count)
+        if theirs is None:
+            continue
+        better = mine if _is_below(mine.mse, theirs.mse) else theirs if _is_below(theirs.mse, mine.mse) else None
+        if better is not None and joined and found[-1].sampler == better.sampler:
+            found[-1] = replace(found[-1], last=mine.count)
+        elif better is not None:
+            found.append(Lead(better.sampler, mine.count, mine.count))
+        joined = better is not None
+    return found

@@ -1,6 +1,9 @@
 """The results of a study as plain data: what ``samplekit.compare`` returns and ``results.json`` holds.
 
 Seconds are those of one trial: of one estimate of the unit square, or of one image. All intervals are 95 % intervals.
+
+Numbers that follow from several others, such as the samples to a target, have intervals too. Where an end of an
+interval is None, the study does not bound the number on that side.
 """
 
 from __future__ import annotations
@@ -13,21 +16,22 @@ if TYPE_CHECKING:
 
     from samplekit.plots import StudyDisplay
 
-SCHEMA = "samplekit.study/1"
+SCHEMA = "samplekit.study/2"
 LEVEL = 0.95
 """Confidence level of all intervals."""
 
 
 @dataclass(frozen=True)
 class Interval:
-    """An estimate with its 95 % confidence interval over trials.
+    """An estimate with its 95 % confidence interval.
 
     Attributes
     ----------
     estimate
-        None if nothing was measured, or if the value is not finite.
+        None if nothing was measured, if the value is not finite, or if only a bound is known.
     low, high
-        Ends of the interval; None if there is none: a single trial, or a sampler that is not random.
+        Ends of the interval. An end that is None is open: nothing is known on that side. Both are the estimate itself
+        where nothing is random.
     """
 
     estimate: float | None
@@ -72,6 +76,8 @@ class Times:
     setup_cpu: float
     setup_wall: float
     laps: int
+    rounds: int
+    seconds: Interval
 
 
 @dataclass(frozen=True)
@@ -111,14 +117,23 @@ class Row:
         Dimensions of a sample; number of samples of one trial, over all pixels that are sampled.
     trials
         Number of independent realisations behind the errors. If it is smaller than requested, ``notes`` says why.
+    shared_draw
+        Whether the rows of this sampler come from the same draws: each set is the beginning of the next larger one, so
+        that their errors go together.
+    no_interval
+        Why errors have no interval; empty if they have. ``"no hits"``: all trials gave one value, and it is not the
+        mean of the scene. ``"few hits"``: too few trials found what makes up the error. ``"infinite variance"``: the
+        scene says so. ``"few trials"``: fewer than 32 of one pixel, or one image. No fit and no ranking uses rows of
+        the first three kinds.
     mse, rmse
-        Mean over trials and pixels of the squared error, and its square root.
+        Mean over trials and pixels of the squared error, and its square root. Without hits there is no estimate, and
+        ``high`` is a one-sided 95 % bound if the scene declares the range of its values.
     bias
         Mean over trials and pixels of the signed error.
     variance
         Mean over pixels of the variance between trials.
     squared_bias
-        mse - variance, estimated without bias: mean over pixels of the square of each pixel's own bias. It may come out
+        mse - variance, which estimates the mean over pixels of the square of each pixel's own bias. It may come out
         below 0 if there is no bias.
     blurred_mse
         Mean square of the error after a Gaussian blur of 2 pixels; None for one pixel.
@@ -134,8 +149,8 @@ class Row:
     times
         Measured times; None if none were measured.
     time
-        Seconds of a trial that the answers use: the median processor time of ``times.total``, plus the extra cost per
-        sample. None without ``times``.
+        Seconds of a trial that the answers use: the processor time of ``times``, plus the extra cost per sample. None
+        without ``times``.
     fitted, left_out
         Whether the fit uses this row, and why not.
     notes
@@ -153,6 +168,8 @@ class Row:
     dims: int
     samples: int
     trials: int
+    shared_draw: bool
+    no_interval: str
     mse: Interval
     rmse: Interval
     bias: Interval
@@ -165,7 +182,7 @@ class Row:
     reference_kind: str
     invalid_pixels: int
     times: Times | None
-    time: float | None
+    time: Interval | None
     fitted: bool
     left_out: str
     notes: list[str]
@@ -181,7 +198,7 @@ class Fit:
     slope
         The exponent. Its interval allows for the scatter about the line as well as for that between trials.
     constant
-        The line's mse at one sample.
+        The line's mse at one sample; None if it is beyond the largest float.
     scatter
         Relative standard deviation of the rows about the line that the trials do not explain; 0 if they explain it all.
     first, last
@@ -195,7 +212,7 @@ class Fit:
     scene: str
     sampler: str
     slope: Interval
-    constant: float
+    constant: float | None
     scatter: float
     first: int
     last: int
@@ -206,8 +223,8 @@ class Fit:
 
     @property
     def falls(self) -> bool:
-        """Whether the rows show that the error falls: the interval of the slope, if there is one, lies below 0."""
-        return self.slope.high is None or self.slope.high < 0.0
+        """Whether the rows show that the error falls: the slope has an interval, and it lies below 0."""
+        return self.slope.high is not None and self.slope.high < 0.0
 
 
 @dataclass(frozen=True)
@@ -219,34 +236,32 @@ class ToTarget:
     target
         The mean squared error to reach.
     count, seconds
-        Number of samples and seconds, interpolated between two rows in their logarithms; None if the sampler does not
-        reach the target within the measured counts.
-    note
-        What a reader should know; may be empty.
+        Number of samples and seconds, interpolated between two rows in their logarithms. The estimate is None if it
+        lies outside of the measured counts. ``low`` None: perhaps fewer than the smallest count; ``high`` None: perhaps
+        more than the largest.
     """
 
     scene: str
     sampler: str
     target: float
-    count: float | None
-    seconds: float | None
-    note: str
+    count: Interval
+    seconds: Interval
 
 
 @dataclass(frozen=True)
 class Choice:
-    """The smallest error on a scene for a range of time budgets.
+    """The samplers that may have the smallest error on a scene, for a range of time budgets.
 
     Attributes
     ----------
+    samplers
+        The best one; or several that the intervals of their errors and times cannot tell apart.
     seconds, until
         The range of budgets for one trial; ``until`` None: without end.
     """
 
     scene: str
-    sampler: str
-    count: int
-    mse: float
+    samplers: list[str]
     seconds: float
     until: float | None
 
@@ -255,6 +270,8 @@ class Choice:
 class Flip:
     """A cost per sample at which two samplers change places in the time that they need to reach the target error.
 
+    Only samplers whose samples and seconds the intervals tell apart have one.
+
     Attributes
     ----------
     cost
@@ -262,37 +279,41 @@ class Flip:
     below, above
         The sampler that needs less time at smaller costs, and the one that needs less at larger costs.
     leads
-        Whether these two need the least time of all samplers at this cost.
+        Whether no other sampler is certainly faster at this cost.
     """
 
     scene: str
     target: float
-    cost: float
+    cost: Interval
     below: str
     above: str
     leads: bool
 
 
 @dataclass(frozen=True)
+class Lead:
+    """A range of counts, both included, at each of which the sampler has the smaller error beyond both intervals."""
+
+    sampler: str
+    first: int
+    last: int
+
+
+@dataclass(frozen=True)
 class Crossing:
-    """Two samplers of which one has the smaller error at few samples and the other at many.
+    """Two samplers of which one has the smaller error at some counts, and the other at others.
 
     Attributes
     ----------
-    fewer, last
-        The better sampler at few samples, and the last count at which the intervals of both do not overlap.
-    more, first
-        The better sampler at many samples, and the first count at which the intervals do not overlap.
-    count
-        Approximate number of samples at which the curves cross.
+    samplers
+        The two.
+    leads
+        Where either has the smaller error, counts rising. At counts between these ranges the intervals overlap.
     """
 
     scene: str
-    fewer: str
-    more: str
-    last: int
-    first: int
-    count: float
+    samplers: tuple[str, str]
+    leads: list[Lead]
 
 
 @dataclass(frozen=True)
@@ -324,7 +345,7 @@ class Results:
         Extra cost per sample, in nanoseconds.
     target
         For each scene the mean squared error of ``to_target`` and ``flips``: the requested one, or the smallest
-        that all samplers reach.
+        that all samplers with intervals certainly reach, rounded up to two digits.
     complete
         False if the study was interrupted and some rows have fewer trials.
     rows

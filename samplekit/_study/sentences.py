@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-import itertools
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from samplekit._study.ranking import may_be_least
+
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Callable, Sequence
 
-    from samplekit._study.results import Choice, Fit, Flip, Results, ToTarget
+    from samplekit._study.results import Choice, Crossing, Fit, Flip, Interval, Results, ToTarget
 
-_MOST_RANGES = 2
+_MOST_BUDGETS = 6
 _UNITS = ((1.0, "s"), (1e-3, "ms"), (1e-6, "µs"), (1e-9, "ns"))
 
 
@@ -52,78 +53,113 @@ class Statement:
 def statements(results: Results) -> list[Statement]:
     """Return the statements about each scene that has a target: about the scene first, then about each sampler."""
     found: list[Statement] = []
-    for scene, error in results.target.items():
-        own = [need for need in results.to_target if need.scene == scene]
+    for scene, target in results.target.items():
+        needs = [need for need in results.to_target if need.scene == scene]
         choices = [choice for choice in results.front if choice.scene == scene]
-        flips = [flip for flip in results.flips if flip.scene == scene]
-        found.append(Statement(scene, None, _scene_text(error, own, choices, flips)))
-        found += [
-            Statement(
-                scene,
-                None,
-                f"{crossing.fewer} has the smaller error up to {crossing.last} samples, {crossing.more} from"
-                f" {crossing.first} on; their curves cross at about {crossing.count:.0f}.",
-            )
-            for crossing in results.crossings
-            if crossing.scene == scene
-        ]
+        flips = [flip for flip in results.flips if flip.scene == scene and flip.leads]
+        texts = [_least_text(target, needs), *map(_flip_text, flips)]
+        texts += [_budgets_text(choices)] if choices else []
+        texts += [_crossing_text(crossing) for crossing in results.crossings if crossing.scene == scene]
+        found += [Statement(scene, None, f"{text}.") for text in texts]
         slopes = {fit.sampler: fit for fit in results.fits if fit.scene == scene}
-        found += [
-            Statement(scene, need.sampler, _sampler_text(need, own, choices, slopes.get(need.sampler))) for need in own
-        ]
+        found += [Statement(scene, need.sampler, _sampler_text(need, slopes.get(need.sampler))) for need in needs]
     return found
 
 
-def _scene_text(target: float, needs: Sequence[ToTarget], choices: Sequence[Choice], flips: Sequence[Flip]) -> str:
-    reached = [need for need in needs if need.count is not None]
-    if not reached:
-        return f"no sampler reaches an mse of {target:.3g}."
-    fewest = min(reached, key=lambda need: need.count or 0.0)
-    text = f"for an mse of {target:.3g}, {fewest.sampler} needs the fewest samples ({fewest.count:.3g})"
-    timed = [need for need in reached if need.seconds is not None]
-    if timed:
-        fastest = min(timed, key=lambda need: need.seconds or 0.0)
-        who = "and" if fastest is fewest else f"and {fastest.sampler}"
-        text += f" {who} the least time ({seconds_in_words(fastest.seconds or 0.0)})"
-    leading = [flip for flip in flips if flip.leads]
-    if leading:
-        flip = leading[-1]
-        text += f"; from a cost of {flip.cost:.3g} ns a sample {flip.above} is the fastest"
-    if choices:
-        names = list(dict.fromkeys(choice.sampler for choice in choices))
-        text += f"; as the time budget grows, the best samplers are {', '.join(names)}"
-    return text + "."
+def _least_text(target: float, needs: Sequence[ToTarget]) -> str:
+    found: dict[str, list[str]] = {}
+    for what, numbers in (
+        ("the fewest samples", [need.count for need in needs]),
+        ("the least time", [need.seconds for need in needs]),
+    ):
+        may = [need.sampler for need, may in zip(needs, may_be_least(numbers), strict=True) if may]
+        if may:
+            untold = ", which the intervals do not tell" if len(may) > 1 else ""
+            found.setdefault(f"{listed(may, 'or')} needs {{}}{untold}", []).append(what)
+        elif any(number.estimate is not None for number in numbers):
+            found.setdefault("no interval tells which sampler needs {}", []).append(what)
+    texts = [text.format(" and ".join(whats)) for text, whats in found.items()] if len(needs) > 1 else []
+    return "; ".join([f"the target is an mse of {target:.3g}", *texts])
 
 
-def _sampler_text(need: ToTarget, needs: Sequence[ToTarget], choices: Sequence[Choice], fit: Fit | None) -> str:
-    if need.count is None:
-        text = need.note
-    else:
-        text = f"needs {need.count:.3g} samples"
-        fastest = min((other.seconds for other in needs if other.seconds is not None), default=None)
-        if need.seconds is not None and fastest:
-            text += f" and {seconds_in_words(need.seconds)}"
-            factor = need.seconds / fastest
-            text += ", the least" if factor == 1.0 else f", {factor:.3g} times the least"
+def _flip_text(flip: Flip) -> str:
+    cost, low, high = flip.cost.estimate or 0.0, flip.cost.low or 0.0, flip.cost.high or 0.0
+    return (
+        f"from an extra cost of {cost:.3g} ns a sample on ({low:.3g} to {high:.3g}), {flip.above} needs less time"
+        f" than {flip.below}"
+    )
+
+
+def _budgets_text(choices: Sequence[Choice]) -> str:
+    alone = [choice for choice in choices if len(choice.samplers) == 1]
+    if len(choices) == 1:
+        return f"for every budget of time the best sampler is {listed(choices[0].samplers, 'or')}"
+    if not alone:
+        return "the intervals tell no best sampler for any budget of time"
+    untold = "; for other budgets the intervals do not tell" if len(alone) < len(choices) else ""
+    if len(alone) > _MOST_BUDGETS:
+        names = listed(list(dict.fromkeys(choice.samplers[0] for choice in alone)), "and")
+        return f"the best sampler changes with the budget of time among {names}{untold}"
+    return f"the best sampler for a budget of time is {listed([*map(_budget, alone)], 'and')}{untold}"
+
+
+def _budget(choice: Choice) -> str:
+    until = "on" if choice.until is None else f"to {seconds_in_words(choice.until)}"
+    return f"{choice.samplers[0]} from {seconds_in_words(choice.seconds)} {until}"
+
+
+def _crossing_text(crossing: Crossing) -> str:
+    parts = []
+    for sampler in crossing.samplers:
+        ranges = [
+            f"at {lead.first}" if lead.first == lead.last else f"from {lead.first} to {lead.last}"
+            for lead in crossing.leads
+            if lead.sampler == sampler
+        ]
+        parts.append(f"{sampler} has the smaller error {listed(ranges, 'and')} samples")
+    return ", ".join(parts)
+
+
+def _sampler_text(need: ToTarget, fit: Fit | None) -> str:
+    text = _samples_in_words(need.count)
+    if need.count.estimate is not None and need.seconds.estimate is not None:
+        text += f" and {seconds_in_words(need.seconds.estimate)}{_ends(need.seconds, seconds_in_words)}"
     if fit is not None and not fit.falls:
         text += "; these counts do not tell how fast its mse falls"
     elif fit is not None:
-        text += f"; its mse falls as N^{fit.slope.estimate:.2f}"
-        if fit.theory is not None:
-            text += f" (theory: N^{fit.theory:g})"
-    own = [run for run in runs(choices) if run[0].sampler == need.sampler]
-    if len(own) > _MOST_RANGES:
-        text += f"; the best choice for budgets in {len(own)} ranges from {seconds_in_words(own[0][0].seconds)} on"
-    elif own:
-        written = []
-        for run in own:
-            until = run[-1].until
-            end = " on" if until is None else f" to {seconds_in_words(until)}"
-            written.append(f"from {seconds_in_words(run[0].seconds)}{end}")
-        text += f"; the best choice for budgets {', '.join(written)}"
+        theory = "" if fit.theory is None else f"; theory: N^{fit.theory:g}"
+        text += f"; its mse falls as N^{fit.slope.estimate:.2f} ({fit.slope.low:.2f} to {fit.slope.high:.2f}{theory})"
     return text + "."
 
 
-def runs(choices: Iterable[Choice]) -> list[list[Choice]]:
-    """Group choices of the same sampler that follow each other: their ranges of budgets join."""
-    return [list(run) for _, run in itertools.groupby(choices, key=lambda choice: choice.sampler)]
+def _samples_in_words(count: Interval) -> str:
+    """Return what a sampler needs: the estimate and its interval, or the bound that is known."""
+    if count.estimate is not None:
+        return f"needs {_number(count.estimate)} samples{_ends(count, _number)}"
+    if count.low is not None and count.high is not None:
+        return f"needs between {_number(count.low)} and {_number(count.high)} samples"
+    if count.high is not None:
+        return f"needs at most {_number(count.high)} samples"
+    if count.low is not None:
+        return f"needs more than {_number(count.low)} samples"
+    return "these rows do not tell how many samples it needs"
+
+
+def _ends(interval: Interval, write: Callable[[float], str]) -> str:
+    """Return the interval in brackets; empty if it is one number."""
+    low, high = interval.low, interval.high
+    if low is not None and high is not None:
+        return "" if low == high else f" ({write(low)} to {write(high)})"
+    if high is not None:
+        return f" (at most {write(high)})"
+    return " (without an interval)" if low is None else f" (at least {write(low)})"
+
+
+def _number(value: float) -> str:
+    """Return a number with three digits, or all digits before the point."""
+    return f"{value:.3g}" if value < 1000.0 else f"{value:.0f}"
+
+
+def listed(names: Sequence[str], word: str) -> str:
+    """Return names with commas, and a word before the last."""
+    return f" {word} ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)

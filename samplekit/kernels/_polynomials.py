@@ -4,8 +4,8 @@ The coefficients were fitted one after the other in mpmath at 70 digits, each by
 with those before it already rounded to float64 (the idea of fpminimax: Brisebarre and Chevillard 2007, "Efficient
 polynomial L-infinity approximations", ARITH 18): ``benchmarks/coefficients.py`` makes them again.
 
-- cos(2 pi t) in z = t^2, |t| <= 1/2: within 3.8e-17. Six to eight times as fast as libm's.
-- exp(r), |r| <= ln(2) / 2: within 4.7e-18 relative. Four times as fast as libm's.
+- cos(2 pi t) in z = t^2, |t| <= 1/2: within 3.8e-17.
+- exp(r), |r| <= ln(2) / 2: within 4.7e-18 relative.
 - cos(pi/4 t) and sin(pi/4 t) / t in z = t^2, |t| <= 1: within 6e-17.
 """
 

@@ -49,7 +49,7 @@ _SHORT: dict[Kind, str] = {
 _LEGEND = (
     "blue: digits of one estimate that are right, 0 to 16;  ~ the variance is infinite: no standard error",
     "! rounding exceeds the error of sampling;  = the sampler is not random: one set, no standard error",
-    "no hits: every sample missed, nothing has converged;  few hits: beyond 4 standard errors, under 100 hits",
+    "no hits: every sample missed, or all estimates are equal;  few hits: too few estimates differ to judge the error",
     "orange: digits that summation lost of those that one rounding leaves, 0 to 3",
 )
 

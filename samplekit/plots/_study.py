@@ -22,10 +22,13 @@ from samplekit.plots._style import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from numpy.typing import NDArray
 
-    from samplekit._study.results import Results, Row
+    from samplekit._study.results import Interval, Results, Row
 
 Against = Literal["samples", "time"]
 
@@ -36,9 +39,10 @@ _SLOPES = (-1.0, -1.5, -2.0, -3.0)
 class StudyDisplay(Display):
     """The mean squared error on one scene, a curve for each sampler, along two logarithmic axes.
 
-    Every point has its 95 % interval. Against samples, the legend names the slope that was fitted to each sampler if
-    its interval lies below 0. The legend is sorted by the error at the end of the curves. Lines below it show how some
-    powers fall along these axes. Errors of 0 cannot be drawn on a logarithmic axis and are left out.
+    Every point has its 95 % interval, against time also that of its time. Against samples, the legend names the slope
+    that was fitted to each sampler if its interval lies below 0. The legend is sorted by the error at the end of the
+    curves. Lines below it show how some powers fall along these axes. Errors of 0 cannot be drawn on a logarithmic axis
+    and are left out.
 
     Parameters
     ----------
@@ -81,7 +85,9 @@ class StudyDisplay(Display):
         self.rows = [
             row
             for row in results.rows
-            if row.scene == self.scene and row.mse.estimate and (against == "samples" or row.time)
+            if row.scene == self.scene
+            and row.mse.estimate
+            and (against == "samples" or (row.time and row.time.estimate))
         ]
 
     @style()
@@ -115,9 +121,10 @@ class StudyDisplay(Display):
         ax.set_yscale("log")
         for rows, label, kind in curves:
             estimates = np.array([row.mse.estimate for row in rows], np.float64)
-            ends = [(row.mse.low or row.mse.estimate, row.mse.high or row.mse.estimate) for row in rows]
-            reach = np.abs(np.array(ends, np.float64).T - estimates)
-            ax.errorbar([self._place(row) for row in rows], estimates, reach, label=label, elinewidth=0.8, **kind)
+            reach = _reach_of([row.mse for row in rows])
+            places = np.array([self._place(row) for row in rows])
+            along = None if self.against == "samples" else _reach_of([row.time for row in rows])
+            ax.errorbar(places, estimates, reach, along, label=label, elinewidth=0.8, **kind)
         ax.set(xlabel=self._x_label(), ylabel="mean squared error")
         ax.grid(color=GRID, linewidth=0.6)
         ax.set_ylim(*_with_two_powers(*ax.get_ylim()))
@@ -133,7 +140,9 @@ class StudyDisplay(Display):
         return self
 
     def _place(self, row: Row) -> float:
-        return float(row.count if self.against == "samples" else row.time or 0.0)
+        if self.against == "samples" or row.time is None:
+            return float(row.count)
+        return row.time.estimate or 0.0
 
     def _x_label(self) -> str:
         if self.against == "samples":
@@ -163,6 +172,14 @@ class StudyDisplay(Display):
             caption=[f"{size}, {results.trials} trials, 95 % intervals{cost}"],
             left=0.65, right=max(0.8, *(text_width(label) for label in labels)) + 0.6,
         )  # fmt: skip
+
+
+def _reach_of(intervals: Sequence[Interval | None]) -> NDArray[np.float64]:
+    """Return how far the intervals reach below and above their estimates: float64[2, n], 0 at an open end."""
+    ends = [(each.estimate, each.low or each.estimate, each.high or each.estimate) for each in intervals if each]
+    estimates, lows, highs = np.array(ends, np.float64).T
+    reach: NDArray[np.float64] = np.array([estimates - lows, highs - estimates])
+    return reach
 
 
 def _with_two_powers(low: float, high: float) -> tuple[float, float]:

@@ -55,6 +55,20 @@ def test_an_edge_is_found_and_the_estimate_holds():
     assert reference.numerical
 
 
+@pytest.mark.slow
+def test_errors_are_those_that_the_page_for_authors_states():
+    edges = np.arange(257) / 256
+    reference = numerical_means(PlainDisk(), edges, edges)
+    error = np.abs(reference.image - Disk().exact(edges, edges))
+    assert error.max() < 2e-4
+    assert math.sqrt((error**2).mean()) == pytest.approx(1.4e-6, rel=0.05)
+    assert reference.error == pytest.approx(1.1e-3, rel=0.05)
+    edges = np.arange(65) / 64
+    reference = numerical_means(Hidden(), edges, edges)
+    assert np.abs(reference.image - DepthOfField().exact(edges, edges)).max() == pytest.approx(0.04, rel=0.1)
+    assert reference.error == pytest.approx(0.06, rel=0.1)
+
+
 def test_a_smooth_scene_far_beyond_the_tolerance():
     edges = np.arange(25) / 24
     reference = numerical_means(Rings(), edges, edges)

@@ -40,7 +40,7 @@ def error_of(sampler: str, count: int) -> float:
 
 
 def around(value: float, share: float) -> Interval:
-    return Interval(value, value * (1 - share), value * (1 + share))
+    return Interval(value, value - abs(value) * share, value + abs(value) * share)
 
 
 def clock(seconds: float) -> Seconds:
@@ -54,7 +54,10 @@ def make_row(
     mse = error_of(sampler, count)
     pixels = size[0] * size[1]
     seconds = law(sampler)[1] * count * pixels
-    times = Times(clock(0.7 * seconds), clock(0.3 * seconds), clock(seconds), 0.02, 0.03, 7) if timed else None
+    spent = around(seconds, 0.02)
+    times = (
+        Times(clock(0.7 * seconds), clock(0.3 * seconds), clock(seconds), 0.02, 0.03, 7, 7, spent) if timed else None
+    )
     return Row(
         scene=scene,
         sampler=sampler,
@@ -64,7 +67,9 @@ def make_row(
         dims=2,
         samples=count * pixels,
         trials=8,
-        mse=around(mse, 0.2),
+        shared_draw=False,
+        no_interval="",
+        mse=around(mse, 0.02),
         rmse=around(math.sqrt(mse), 0.1),
         bias=Interval(-0.01 * mse, -0.05 * mse, 0.03 * mse),
         variance=around(0.9 * mse, 0.2),
@@ -76,7 +81,7 @@ def make_row(
         reference_kind="exact",
         invalid_pixels=0,
         times=times,
-        time=seconds if timed else None,
+        time=spent if timed else None,
         fitted=True,
         left_out="",
         notes=[],
@@ -126,8 +131,8 @@ def make_study(
     ]
     front = (
         [
-            Choice(scene, samplers[0], counts[0], 0.01, 1e-6, 1e-4),
-            Choice(scene, samplers[-1], counts[-1], 1e-5, 1e-4, None),
+            Choice(scene, [samplers[0]], 1e-6, 1e-4),
+            Choice(scene, [samplers[-1]], 1e-4, None),
         ]
         if (scene := scenes[0])
         else []

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import shutil
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -143,7 +144,7 @@ def test_a_point_under_the_pointer_tells_its_values(page):
     assert "jittered" in text
     assert "16 (for 17)" in text
     assert "6.25·10⁻⁴" in text
-    assert "5.00·10⁻⁴ … 7.50·10⁻⁴" in text
+    assert "6.12·10⁻⁴ … 6.38·10⁻⁴" in text
     assert "30.7 µs" in text
     assert "jittered makes products" in text
     assert page.locator(".chart").first.locator(".focus-ring").is_visible()
@@ -213,14 +214,18 @@ def test_the_strip_shows_where_the_ranking_flips(page):
     # Samples that each law needs for an error of 0.001, and its seconds for one of 384 pixels.
     needs = {"jittered": 40 ** (2 / 3), "sobol+owen": 40**0.5, "poisson-disk": 10 ** (1 / 1.3)}
     own = {"jittered": 5e-9, "sobol+owen": 2e-8, "poisson-disk": 1e-6}
-    (first, _), (second, at), (third, later) = segments(page)
-    assert (first, second, third) == ("jittered", "sobol+owen", "poisson-disk")
-    for low, high, cost in ((first, second, at), (second, third, later)):
+    found = segments(page)
+    alone = [name for name, _ in found if " or " not in name]
+    assert alone == ["jittered", "sobol+owen", "poisson-disk"]
+    for low, high in pairwise(alone):
         flip = (needs[high] * own[high] - needs[low] * own[low]) / (needs[low] - needs[high])
-        assert cost == pytest.approx(flip, rel=0.02)
+        # Between the two stands a range that the intervals leave open; it has the flip inside.
+        place = [name for name, _ in found].index(f"{low} or {high}")
+        assert found[place][1] < flip < found[place + 1][1] < 3.0 * found[place][1]
     sentence = page.locator(".flips .sentence").nth(1).inner_text()
     assert "the fastest is jittered" in sentence
-    assert "13 ns a sample on sobol+owen" in sentence
+    assert "a sample on jittered or sobol+owen; from" in sentence
+    assert sentence.endswith("the intervals do not tell.")
 
 
 def test_the_target_moves_the_line_and_the_strip(page):
@@ -228,7 +233,9 @@ def test_the_target_moves_the_line_and_the_strip(page):
     before = float(line.get_attribute("y1"))
     slide(page, "#target-1", math.log10(2e-4))
     assert float(page.locator(".chart").nth(2).locator(".target").get_attribute("y1")) > before
-    assert [name for name, _ in segments(page)] == ["jittered", "sobol+owen"]
+    # No row of random reaches the target; its next one might, in time.
+    names = [name for name, _ in segments(page)]
+    assert (names[0], names[-1]) == ("random or jittered", "sobol+owen")
     assert "2.00·10⁻⁴" in page.locator(".flips .sentence").nth(1).inner_text()
 
 

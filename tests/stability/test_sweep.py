@@ -11,7 +11,7 @@ from samplekit._bases.reference import Reference
 from samplekit._stability.measurement import measure
 from samplekit._stability.results import precision_lost_beyond
 from samplekit._stability.sweep import scenes_of
-from samplekit._stability.verdict import judge
+from samplekit._stability.verdict import chance_bound, judge
 
 EDGES = np.array([0.0, 1.0])
 
@@ -93,8 +93,8 @@ def test_a_wrong_estimate_is_found():
     honest = measure(scene, sampler, 256, realizations=64, seed=1, reference=Reference(exact))
     wrong = Reference(exact + honest.spread)
     measured = measure(scene, sampler, 256, realizations=64, seed=1, reference=wrong)
-    assert judge(honest, finite_variance=True).kind == "right"
-    assert judge(measured, finite_variance=True).kind == "wrong"
+    assert judge(honest, finite_variance=True, bound=chance_bound(64)).kind == "right"
+    assert judge(measured, finite_variance=True, bound=chance_bound(64)).kind == "wrong"
     assert measured.standard_errors == pytest.approx(-8, abs=4)
 
 

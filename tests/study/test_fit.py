@@ -53,3 +53,9 @@ def test_two_rows_have_a_slope_and_one_has_none():
     slope, _, _ = fit_line([4, 16], [1.0, 0.25], [None, None])
     assert slope.low is None
     assert fit_line([4], [1.0], [None]) is None
+
+
+def test_a_line_that_leaves_the_range_of_floats_has_no_constant():
+    slope, constant, _ = fit_line([1000, 1024], [1e-7, 1e-22], [None, None])
+    assert slope.estimate < -1000.0
+    assert constant is None

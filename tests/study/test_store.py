@@ -140,7 +140,7 @@ def test_times_of_another_kind_of_machine_do_not_count(opened):
     fast.add_laps([(combination, (1.0, 2.0, 3.0, 4.0))] * 5)
     (row,) = Analysis(REQUEST, ExecutionOptions(cost=10.0), [combination], fast, resources).rows()
     assert (row.times.points.cpu.median, row.times.total.wall.upper, row.times.laps) == (1.0, 6.0, 5)
-    assert row.time == pytest.approx(4.0 + 4 * 10e-9)
+    assert row.time.estimate == pytest.approx(4.0 + 4 * 10e-9)
     fast.close()
     (row,) = Analysis(REQUEST, ExecutionOptions(), [combination], opened(machine="third"), resources).rows()
     assert (row.times, row.time) == (None, None)

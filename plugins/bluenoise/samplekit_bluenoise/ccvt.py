@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 _COARSEST = 8
 """Smallest number of background points per site at which sites are left to settle."""
 _MOST_SWEEPS = 200
-"""1024 sites with 256 points each settle in about 60 sweeps."""
+"""1024 sites with 256 points each settled in 38 to 110 sweeps, over 60 sets."""
 
 
 def capacity_steps(capacity: int) -> tuple[int, int]:

@@ -1,5 +1,6 @@
 """The test for bias: for an unbiased sampler, the mean of S(m) is zero at every integer m except 0.
 
+S(m) = (1/N) sum exp(-2 pi i m . x) over the N points x of a set.
 The mean of an estimate is the sum of f(m) conj E S(m). It equals the integral for every integrand if and only if
 E S(m) = 0 for all m other than 0 (Subr, Kautz 2013). Between the integers E S(m) is then the transform of the unit
 square.
@@ -35,7 +36,7 @@ class Bias:
     verdict
         ``"none found"``, ``"biased"``, or ``"too few realizations"``.
     frequency, amplitude, standard_error
-        That frequency, |E S(m)| / N at it, and its standard error, which is 0 for a sampler that is not random.
+        That frequency, |E S(m)| at it, and its standard error, which is 0 for a sampler that is not random.
     score, threshold
         |E S(m)|^2 over its expectation for an unbiased sampler; and the value that the largest score of an unbiased
         sampler exceeds with a probability of at most 1e-3: a quantile of the square of Student's t, for the number of

@@ -28,9 +28,9 @@ class Moments:
     rings, ring_counts
         int32[half], float64[rings + 1]: the ring of each frequency; the number of the half's frequencies on each ring.
     mean, squares
-        float64[half]: the mean of |S|^2 / N^2, and the sum of its squared deviations.
+        float64[half]: the mean of |S|^2, S(m) = (1/N) sum exp(-2 pi i m . x), and the sum of its squared deviations.
     amplitude
-        complex128[half]: the mean of S / N.
+        complex128[half]: the mean of S.
     ring_mean, ring_squares
         float64[rings + 1]: the same for the mean over each ring; entry 0 has no meaning.
     totals
@@ -59,9 +59,9 @@ class Moments:
         *,
         exact_dc: bool = True,
     ) -> None:
-        """Add realisations of ``count`` points, given S in parts: the first entry, and complex128[members, entries].
+        """Add realisations of ``count`` points, given N S in parts: the first entry, and complex128[members, entries].
 
-        ``exact_dc``: entry 0 is DC, where S is exactly ``count``, whatever rounding makes of it.
+        ``exact_dc``: entry 0 is DC, where N S is exactly ``count``, whatever rounding makes of it.
         """
         ring_sums, totals = np.zeros((members, self.ring_mean.size)), np.zeros(members)
         for start, amplitudes in parts:

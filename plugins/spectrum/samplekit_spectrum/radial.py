@@ -33,8 +33,10 @@ class Radial:
     frequencies
         Number of frequencies on each ring.
     power, standard_error
-        The mean of E|S|^2 over each ring, and its standard error: NaN for a single realisation. The error comes from
-        the spread of the ring's mean over realisations, so frequencies of one set may depend on each other.
+        The mean of E|S(m)|^2 over each ring, with S(m) = (1/N) sum_k exp(-2 pi i m . x_k): 1/N for random points, and 1
+        where all points are in phase. Tables and plots show N times it. Of an error image: the mean of its power, which
+        is 1 on average. The standard error is NaN for a single realisation. It comes from the spread of the ring's mean
+        over realisations, so frequencies of one set may depend on each other.
     anisotropy
         In dB; -inf where the spectrum is the same in all directions.
     """

@@ -1,4 +1,4 @@
-"""S(m) = sum_k exp(-2 pi i m . x_k) of points: by a non-uniform FFT, or by matrix products if there are few points.
+"""N S(m) = sum_k exp(-2 pi i m . x_k) of N points: by a non-uniform FFT, or by matrix products if there are few.
 
 The non-uniform FFT is ducc0's, with a relative error of 1e-12 (Reinecke, Arras, Greengard et al.: Kaiser-Bessel-like
 kernels). Two realisations share one transform: one has the strengths 1, the other i, and Hermitian symmetry separates
@@ -85,7 +85,7 @@ def few_points(cube: Cube, count: int) -> bool:
 def amplitudes(
     sets: PointSets, axes: tuple[int, ...], frequencies: Frequencies
 ) -> Iterator[tuple[int, NDArray[np.complex128]]]:
-    """Yield S of the sets projected on ``axes``, in parts: the first entry, and complex128[sets, entries]."""
+    """Yield N S of the sets projected on ``axes``, in parts: the first entry, and complex128[sets, entries]."""
 
     def total(transform: Callable[..., NDArray[np.complex128]], *slab: Slab) -> NDArray[np.complex128]:
         return reduce(np.add, (transform(points, frequencies, *slab) for points in sets.chunks(axes)))
@@ -110,7 +110,7 @@ def amplitudes(
 
 
 def listed_sums(points: NDArray[np.float64], frequencies: FrequencyList) -> NDArray[np.complex128]:
-    """Return S of points float64[k, D, n] at listed frequencies, complex128[k, K]."""
+    """Return N S of points float64[k, D, n] at listed frequencies, complex128[k, K]."""
     sums = np.zeros((points.shape[0], frequencies.half), np.complex128)
     for member, coordinates in enumerate(points):
         # x is the last coordinate, and the first component of a listed frequency.
@@ -128,7 +128,7 @@ def nufft_pair(points: NDArray[np.float64], cube: Cube) -> NDArray[np.complex128
 
 
 def nufft_slab(points: NDArray[np.float64], cube: Cube, slab: Slab) -> NDArray[np.complex128]:
-    """Return S of each set on the rows of a slab, complex128[k, rows * row]."""
+    """Return N S of each set on the rows of a slab, complex128[k, rows * row]."""
     # The transform is symmetric about its middle, so it has an odd number of rows.
     height = slab.rows + 1 - slab.rows % 2
     middle = (slab.row + height // 2) * cube.step
@@ -143,7 +143,7 @@ def nufft_slab(points: NDArray[np.float64], cube: Cube, slab: Slab) -> NDArray[n
 
 
 def product_slab(points: NDArray[np.float64], cube: Cube, slab: Slab) -> NDArray[np.complex128]:
-    """Return S of each set on the rows of a slab, complex128[k, rows * row].
+    """Return N S of each set on the rows of a slab, complex128[k, rows * row].
 
     A sum of products L(my) T(mx) over the points is a matrix product. Real products serve both T(mx) and T(-mx).
     """

@@ -86,6 +86,20 @@ def test_the_regular_grid_is_a_comb():
     assert spectrum.mean[comb == 0.0].max() < 1e-20
 
 
+def test_radial_power_and_bias_are_those_of_the_mean_over_points():
+    """S(m) = (1/N) sum exp(-2 pi i m . x): 1 at the 4 of 32 frequencies of ring 4 where a grid of 4 x 4 is in phase."""
+    grid = power("regular", 16, max_frequency=4)
+    np.testing.assert_allclose(grid.radial.power, [0.0, 0.0, 0.0, 4 / 32], atol=1e-12)
+    assert grid.bias.amplitude == pytest.approx(1.0, abs=1e-12)
+    sets = samplekit.points("random", 16, realizations=20, seed=5)
+    ring = np.array([(x, y) for x in (-1, 0, 1) for y in (-1, 0, 1) if (x, y) != (0, 0)])
+    amplitudes = np.exp(-2j * np.pi * sets @ ring.T).mean(axis=1)
+    found = power("random", 16, realizations=20, max_frequency=1, seed=5)
+    assert found.radial.power[0] == pytest.approx((np.abs(amplitudes) ** 2).mean(), rel=1e-9)
+    # 1/N, not 1: 160 nearly exponential powers, half of them independent, within 5 standard errors.
+    assert 16 * found.radial.power[0] == pytest.approx(1.0, abs=5 / math.sqrt(80))
+
+
 @pytest.mark.parametrize("count", [16, 1024])
 def test_white_noise_is_1_over_every_ring(count):
     """Rings are nearly independent: 1e-3 over all of them."""

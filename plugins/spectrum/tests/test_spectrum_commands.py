@@ -48,6 +48,8 @@ def test_the_files_hold_the_raw_power(here, capsys):
     assert [float(row["power"]) for row in rows] == wanted.radial.power.tolist()
     ElementTree.parse(here / f"{stem}.radial.svg")
     assert report["schema"] == "samplekit.spectrum/1"
+    assert contents.metadata["quantity"].startswith(report["quantity"])
+    assert report["quantity"] == "E|S(m)|^2 with S(m) = (1/N) sum exp(-2 pi i m.x)"
     assert report["spectra"][0]["radial"]["power"] == wanted.radial.power.tolist()
     assert report["spectra"][0]["bias"]["verdict"] == "none found"
     assert report["spectra"][0]["dc"] == 1.0

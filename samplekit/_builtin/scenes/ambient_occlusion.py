@@ -81,6 +81,7 @@ class AmbientOcclusion(Scene):
     """
 
     reference_error = 1e-8
+    value_range = (0.0, 1.0)
 
     def __init__(self, radius: float = 0.9, height: float = 1.0, cx: float = 0.0, cy: float = 0.0) -> None:
         if height < radius:

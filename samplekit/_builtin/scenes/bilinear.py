@@ -27,6 +27,8 @@ def _sums(tile: Array, boxes: Array, out: Array) -> None:
 class Bilinear(Scene):
     """The function x y."""
 
+    value_range = (0.0, 1.0)
+
     def sums(self, tile: Array, boxes: Array, out: Array) -> None:
         """Sum x y over each pixel's samples: see :meth:`Scene.sums`."""
         _sums(tile, boxes, out)

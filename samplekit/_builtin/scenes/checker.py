@@ -28,6 +28,8 @@ class Checker(Scene):
         Cells along the unit square's side, 1 to 2^20.
     """
 
+    value_range = (0.0, 1.0)
+
     def __init__(self, cells: int = 8) -> None:
         self.cells = float(cells)
 

@@ -190,6 +190,8 @@ class Disk(Scene):
         The radius is neither 0 nor at least 1e-150.
     """
 
+    value_range = (0.0, 1.0)
+
     def __init__(self, radius: float = 0.3, cx: float = 0.4523, cy: float = 0.5317) -> None:
         if 0.0 < radius < SMALLEST:
             raise UsageError(f"disk: radius={radius}: expected 0, or a number of at least {SMALLEST:g}")

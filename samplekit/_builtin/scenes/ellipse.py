@@ -50,6 +50,8 @@ class Ellipse(Scene):
         Centre, from -1e60 to 1e60.
     """
 
+    value_range = (0.0, 1.0)
+
     def __init__(
         self, radius: float = 0.3, aspect: float = 0.1, angle: float = 30.0, cx: float = 0.4523, cy: float = 0.5317
     ) -> None:

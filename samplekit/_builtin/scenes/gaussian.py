@@ -43,6 +43,8 @@ class Gaussian(Scene):
         Centre, from -1e50 to 1e50.
     """
 
+    value_range = (0.0, 1.0)
+
     def __init__(self, sigma: float = 0.1, cx: float = 0.4523, cy: float = 0.5317) -> None:
         self.sigma, self.cx, self.cy = float(sigma), float(cx), float(cy)
         self._sampled_scale = _inverse(self.sigma, _LARGEST_SAMPLED_SCALE)[0]

@@ -44,6 +44,9 @@ class Offset(Scene):
             )
         self.pedestal = float(pedestal)
         self.finite_variance = self.scene.finite_variance
+        if self.scene.value_range is not None:
+            least, most = self.scene.value_range
+            self.value_range = (least + self.pedestal, most + self.pedestal)
 
     def notes(self) -> list[str]:
         """Return the notes of the scene, and one on the spacing of numbers at the pedestal."""

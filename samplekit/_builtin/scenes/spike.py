@@ -70,6 +70,7 @@ class Spike(Scene):
         half = 0.5 * math.sqrt(area)
         self.square = np.array([cx - half, cx + half, cy - half, cy + half])
         self.peak, self.background = float(peak), float(background)
+        self.value_range = (min(self.peak, self.background), max(self.peak, self.background))
 
     def sums(self, tile: Array, boxes: Array, out: Array) -> None:
         """Sum the value at each pixel's samples: see :meth:`Scene.sums`."""

@@ -201,6 +201,8 @@ class Step(Scene):
         The width is neither 0 nor at least 1e-150.
     """
 
+    value_range = (0.0, 1.0)
+
     def __init__(self, angle: float = 0.0, offset: float = 0.5, width: float = 0.0) -> None:
         if 0.0 < width < 1e-150:
             raise UsageError(f"step: width={width}: expected 0, or a number of at least 1e-150")

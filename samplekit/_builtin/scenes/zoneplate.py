@@ -49,6 +49,8 @@ class ZonePlate(Scene):
         Centre, from -1e100 to 1e100: k |x - c|^2 stays finite.
     """
 
+    value_range = (0.0, 1.0)
+
     def __init__(self, k: float = 1024.0, cx: float = 0.0, cy: float = 0.0) -> None:
         self.k, self.cx, self.cy = float(k), float(cx), float(cy)
 

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 SCHEMA = "samplekit.spectrum/1"
 IMAGE_SCHEMA = "samplekit.error-spectrum/1"
+QUANTITY = "E|S(m)|^2 with S(m) = (1/N) sum exp(-2 pi i m.x)"
 
 
 def spectrum(
@@ -124,6 +125,7 @@ def spectrum(
     lines += [line for one in spectra for line in spectrum_lines(one)]
     report: dict[str, Any] = {
         **_facts(first),
+        "quantity": QUANTITY,
         "spectra": described,
         "seconds": seconds,
         "files": [str(file) for file in files],
@@ -176,7 +178,7 @@ def _metadata(spectrum: Spectrum, homogenize: bool, project: str, chosen: Config
         "versions": versions() | {"ducc0": version("ducc0"), "samplekit-spectrum": version("samplekit-spectrum")},
         "sampler_plugin": str(chosen.plugin),
         "sampler_notes": chosen.fresh().notes(spectrum.count, spectrum.dims),
-        "quantity": "E|S(m)|^2 with S(m) = (1/N) sum exp(-2 pi i m.x); DC, which is 1, in the middle",
+        "quantity": f"{QUANTITY}; DC, which is 1, in the middle",
     }
 
 

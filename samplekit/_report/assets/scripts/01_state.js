@@ -29,14 +29,14 @@ function rowsOf(scene, sampler) {
   return STUDY.rows.filter((row) => row.scene === scene && row.sampler === sampler);
 }
 
-// Seconds of a trial as measured, and with what a sample is said to cost.
+// Seconds of a trial as measured, with their interval, and with what a sample is said to cost.
 function measured(row) {
-  return row.times?.total.cpu ?? null;
+  return row.times?.seconds ?? null;
 }
 
 function secondsOf(row, cost = state.cost) {
   const own = measured(row);
-  return own && own.median + cost * 1e-9 * row.samples;
+  return own && own.estimate + cost * 1e-9 * row.samples;
 }
 
 // Costs on a logarithmic slider, whose left end is none.

@@ -24,12 +24,12 @@ function chartPoint(row, overTime) {
   if (!error || error.estimate === null) return null;
   const own = measured(row);
   if (overTime && !own) return null;
-  const added = overTime ? secondsOf(row) - own.median : 0;
+  const added = overTime ? secondsOf(row) - own.estimate : 0;
   return {
     row,
-    x: overTime ? own.median + added : row.count,
-    left: overTime ? own.lower + added : null,
-    right: overTime ? own.upper + added : null,
+    x: overTime ? own.estimate + added : row.count,
+    left: overTime && own.low !== null ? own.low + added : null,
+    right: overTime && own.high !== null ? own.high + added : null,
     y: error.estimate,
     low: error.low,
     high: error.high,
@@ -100,10 +100,10 @@ function rowFacts(point) {
     ["95 %", formatInterval(point.low, point.high)],
   ];
   if (own) {
-    const added = secondsOf(row) - own.median;
+    const added = secondsOf(row) - own.estimate;
     facts.push(["time", formatSeconds(secondsOf(row))]);
-    facts.push(["quartiles", `${formatSeconds(own.lower + added)} … ${formatSeconds(own.upper + added)}`]);
-    if (added > 0) facts.push(["as measured", formatSeconds(own.median)]);
+    if (own.low !== null) facts.push(["95 %", `${formatSeconds(own.low + added)} … ${formatSeconds(own.high + added)}`]);
+    if (added > 0) facts.push(["as measured", formatSeconds(own.estimate)]);
   }
   facts.push(["trials", formatCount(row.trials)]);
   const remarks = [row.replaced, row.left_out && `not in the fit: ${row.left_out}`, ...row.notes];

@@ -1,7 +1,9 @@
-// For each cost of a sample the sampler that reaches the target first: a strip, coloured by winner, under the charts.
+// For each cost of a sample the samplers that may reach the target first: a strip under the charts, coloured by winner,
+// and grey where the intervals do not tell.
 
 const STRIP = { height: 64, top: 6, bar: 30 };
 const COSTS = [LEAST_COST, 6];
+const COST_STEP = 0.01;
 
 class Flips {
   constructor(host) {
@@ -28,17 +30,13 @@ class Flips {
 
   found() {
     const target = state.targets.get(this.scene);
-    const lines = STUDY.samplers
-      .map((name, index) => ({ name, index }))
-      .filter(({ name }) => !state.hidden.has(name))
-      .map(({ name, index }) => {
-        const points = rowsOf(this.scene, name)
-          .filter((row) => measured(row))
-          .map((row) => ({ count: row.samples, error: row.mse.estimate, seconds: measured(row).median }));
-        return { index, ...reaching(points, target) };
-      })
-      .filter((line) => line.seconds > 0);
-    return winners(lines);
+    const needs = STUDY.samplers
+      .filter((name) => !state.hidden.has(name))
+      .map((name) => ({ name, rows: rowsOf(this.scene, name).filter((row) => measured(row)?.estimate > 0) }))
+      .filter(({ rows }) => rows.length)
+      .map(({ name, rows }) => ({ name, ...needed(rows, target) }));
+    const costs = d3.range(LEAST_COST, COSTS[1], COST_STEP).map((position) => costAt(position) * 1e-9);
+    return winners(needs, costs);
   }
 
   draw(width = this.width) {
@@ -77,19 +75,20 @@ class Flips {
   }
 
   segments(found) {
-    found.forEach(({ index, from }, at) => {
+    found.forEach(({ names, from }, at) => {
       const left = this.x(positionOf(from * 1e9));
       const right = at + 1 < found.length ? this.x(positionOf(found[at + 1].from * 1e9)) : this.x(COSTS[1]);
       if (right <= left) return;
-      const name = STUDY.samplers[index];
+      const name = listed(names);
       const group = this.svg.append("g").attr("data-sampler", name);
       group
         .append("rect")
+        .attr("class", names.length > 1 ? "untold" : null)
         .attr("x", left)
         .attr("y", STRIP.top)
         .attr("width", right - left)
         .attr("height", STRIP.bar)
-        .style("fill", seriesColour(index));
+        .style("fill", names.length > 1 ? null : seriesColour(STUDY.samplers.indexOf(name)));
       group.append("title").text(name);
       if (right - left > 40) {
         group
@@ -105,11 +104,16 @@ class Flips {
 
   words(found, target) {
     if (found.length === 0)
-      return `No sampler that is switched on reaches a mean squared error of ${formatNumber(target)}.`;
-    const [first, ...others] = found.map(({ index, from }) => [STUDY.samplers[index], formatSeconds(from, 2)]);
+      return `No sampler that is switched on certainly reaches a mean squared error of ${formatNumber(target)}.`;
+    const [first, ...others] = found.map(({ names, from }) => [listed(names), formatSeconds(from, 2)]);
     const lead = `To a mean squared error of ${formatNumber(target)} the fastest is ${first[0]}`;
-    if (others.length === 0) return `${lead}, whatever a sample costs.`;
+    const untold = found.some(({ names }) => names.length > 1) ? " Where several are named, the intervals do not tell." : "";
+    if (others.length === 0) return `${lead}, whatever a sample costs.${untold}`;
     const rest = others.map(([name, from]) => `from ${from} a sample on ${name}`);
-    return `${lead} where samples cost nothing more; ${rest.join("; ")}.`;
+    return `${lead} where samples cost nothing more; ${rest.join("; ")}.${untold}`;
   }
+}
+
+function listed(names) {
+  return names.length > 1 ? `${names.slice(0, -1).join(", ")} or ${names.at(-1)}` : names[0];
 }
