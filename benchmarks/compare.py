@@ -20,7 +20,6 @@ import numpy as np
 from core import build, reversed_table
 
 import samplekit
-from samplekit._bases.realizations import Realizations
 from samplekit._integrate.loop import integrate, unit_square
 from samplekit._integrate.plan import make_plan
 from samplekit._integrate.rendering import render_plan
@@ -50,7 +49,7 @@ def interleaved(runs: dict[str, Callable[[], object]], repeats: int, clock: Call
 
 def pure_square(scene_name: str, sampler: str, count: int, trials: int) -> float:
     scene, source = samplekit.scene(scene_name), samplekit.sampler(sampler)
-    realizations = Realizations.of_trials(0, trials, 0, scene.blocks)
+    realizations = source.trials(0, trials, 0, scene.blocks)
     return float(integrate(scene, source, (count,), realizations, unit_square(trials)).mean())
 
 

@@ -15,7 +15,7 @@ import time
 
 import numpy as np
 
-from samplekit import ConfiguredSampler, Realizations
+from samplekit import ConfiguredSampler
 from samplekit import sampler as configured_sampler
 from samplekit._registry import registry
 from samplekit.testing._forced_bits import forced_extremes
@@ -57,7 +57,7 @@ def draw(sampler: ConfiguredSampler, share: int) -> tuple[int, float, float]:
         sampler.prepare(count, dims)
         realizations = max(1, VALUES_AT_ONCE // (count * dims))
         first = int(seeds.integers(0, 2**31 - realizations))
-        trials = Realizations.of_trials(first, first + realizations, int(seeds.integers(0, 2**64, dtype=np.uint64)))
+        trials = sampler.trials(first, first + realizations, int(seeds.integers(0, 2**64, dtype=np.uint64)))
         out = np.full((realizations, dims, count), np.nan)
         sampler.fill(out, trials, count, 0)
         low, high = min(low, float(out.min())), max(high, float(out.max()))

@@ -20,7 +20,7 @@ import numpy as np
 from scipy.stats import qmc
 
 import samplekit
-from samplekit import Realizations, UsageError
+from samplekit import UsageError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -104,7 +104,7 @@ def filler(text: str, count: int) -> Callable[[], object]:
 
     def fill() -> None:
         first = next(trial)
-        sampler.fill(out, Realizations.of_trials(first, first + 1, 0), count, 0)
+        sampler.fill(out, sampler.trials(first, first + 1, 0), count, 0)
 
     fill()
     return fill

@@ -1,7 +1,7 @@
 from ._bases.randomizer import Randomizer as Randomizer
 from ._bases.realizations import Realizations as Realizations
 from ._bases.realizations import check_seed as check_seed
-from ._bases.realizations import seed_word as seed_word
+from ._bases.realizations import seed_words as seed_words
 from ._bases.reference import Reference as Reference
 from ._bases.sampler import Sampler as Sampler
 from ._bases.scene import Scene as Scene

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit._arguments import as_integer, check_positive
-from samplekit._bases.realizations import Realizations, check_seed
+from samplekit._bases.realizations import LARGEST_COORDINATE, Realizations, check_seed
 from samplekit._bases.sampler import Sampler
 from samplekit._configured.configured import Configured, find_choice
 from samplekit._configured.randomizer import ConfiguredRandomizer, randomizer
@@ -70,6 +70,9 @@ class ConfiguredSampler(Configured):
             lambda streams: isinstance(streams, bool),
             "True or False",
         )
+        # Randomizers move the points of a set: how the sets of a block depend on each other, they cannot undo. A pixel
+        # more than the block: the trials take different places of their blocks.
+        self._apart = self.spec.screen_block + 1 if self.spec.screen_block else 1
         self._fill: Fill = self._sampler.fill
         self._randomizers = randomizers
         if randomizers:
@@ -150,6 +153,40 @@ class ConfiguredSampler(Configured):
             "cannot tell its notes", lambda: self._sampler.notes(count, dims), _are_texts, "texts"
         )
 
+    def trials(self, start: int, stop: int, seed: int, blocks: tuple[int, ...] = (), *, apart: int = 1) -> Realizations:
+        """Return the independent realisations start to stop of this sampler.
+
+        They are pixels in a row, one in each block of pixels that share a sequence (``screen_block``). Where a row
+        ends, the next one is as far below as two pixels are apart.
+
+        Parameters
+        ----------
+        start, stop
+            Numbers of the first realisation and of the one after the last, from 0 on.
+        seed
+            From 0 to 2^64 - 1.
+        blocks
+            Sizes of the blocks that the dimensions form; see :class:`Realizations`.
+        apart
+            Least distance of two pixels.
+
+        Raises
+        ------
+        UsageError
+            The seed or a number is out of range.
+
+        Examples
+        --------
+        >>> import samplekit
+        >>> samplekit.sampler("jittered").trials(0, 3, seed=7).x, samplekit.sampler("z-sobol").trials(0, 3, seed=7).x
+        (array([0, 1, 2]), array([  0,  65, 130]))
+        """
+        apart = max(apart, self._apart)
+        columns = LARGEST_COORDINATE // apart + 1
+        x = np.arange(start, stop, dtype=np.int64)
+        y = np.zeros_like(x) if start >= 0 and stop <= columns else x // columns
+        return Realizations.of_pixels((x - y * columns) * apart, y * apart, seed, blocks)
+
     def fill(self, out: NDArray[np.float64], realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`Sampler.fill`.
 
@@ -214,7 +251,7 @@ class ConfiguredSampler(Configured):
         check_memory(2 * 8 * realizations * dims * (end - first), "these points")
         self.prepare(count, dims, progress)
         out = np.empty((realizations, dims, end - first))
-        self.fill(out, Realizations.of_trials(0, realizations, seed), count, first)
+        self.fill(out, self.trials(0, realizations, seed), count, first)
         return np.ascontiguousarray(out.transpose(0, 2, 1))
 
 

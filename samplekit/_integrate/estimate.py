@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from samplekit._arguments import check_positive
-from samplekit._bases.realizations import Realizations, check_seed
+from samplekit._bases.realizations import check_seed
 from samplekit._configured.sampler import sampler as configured_sampler
 from samplekit._configured.scene import scene as configured_scene
 from samplekit._integrate.loop import integrate, unit_square
@@ -85,7 +85,7 @@ def estimate(
 
     def work(start: int, tick: Callable[[int], None]) -> NDArray[np.float64]:
         stop = min(start + _BLOCK, realizations)
-        trials = Realizations.of_trials(first + start, first + stop, seed, integrand.blocks)
+        trials = source.trials(first + start, first + stop, seed, integrand.blocks)
         (means,) = integrate(integrand, source, (count,), trials, unit_square(stop - start), tick=tick)
         return np.asarray(means)
 

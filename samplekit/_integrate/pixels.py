@@ -8,16 +8,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit._bases.realizations import Realizations, seed_word
+from samplekit._bases.realizations import Realizations, seed_words
 from samplekit._integrate.loop import mean_of_constant
-from samplekit.kernels import kernel, mix64
+from samplekit.kernels import kernel, pixel_key
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from samplekit._configured.scene import ConfiguredScene
-
-_U64 = np.uint64
 
 
 @dataclass(frozen=True)
@@ -103,12 +101,12 @@ class Pixels:
         keys, xs, ys = np.empty(count, np.uint64), np.empty(count, np.int64), np.empty(count, np.int64)
         boxes = np.empty((4, count))
         x, y, width, _ = self.window
-        _locate(indices, x, y, width, seed_word(seed), self.x_edges, self.y_edges, keys, xs, ys, boxes)
+        _locate(indices, x, y, width, *seed_words(seed), self.x_edges, self.y_edges, keys, xs, ys, boxes)
         return Realizations(keys, xs, ys, seed, self.scene.blocks), boxes
 
 
 @kernel(
-    "void(int64[::1], int64, int64, int64, uint64, float64[::1], float64[::1],"
+    "void(int64[::1], int64, int64, int64, uint64, uint64, float64[::1], float64[::1],"
     " uint64[::1], int64[::1], int64[::1], float64[:,::1])"
 )
 def _locate(
@@ -116,7 +114,8 @@ def _locate(
     x_first: int,
     y_first: int,
     width: int,
-    seed: np.uint64,
+    word: np.uint64,
+    offset: np.uint64,
     x_edges: NDArray[np.float64],
     y_edges: NDArray[np.float64],
     keys: NDArray[np.uint64],
@@ -135,7 +134,7 @@ def _locate(
         x, y = x_first + column, y_first + row
         xs[i] = x
         ys[i] = y
-        keys[i] = mix64((_U64(x) | (_U64(y) << _U64(32))) ^ seed)
+        keys[i] = pixel_key(x, y, word, offset)
         boxes[0, i] = x_edges[column]
         boxes[1, i] = x_edges[column + 1] - x_edges[column]
         boxes[2, i] = y_edges[row]

@@ -41,7 +41,8 @@ class SamplerSpec(Declaration):
     screen_block
         Side B of the aligned squares of B x B pixels that share one sequence, so that their errors cancel when they are
         seen together: the sets of such a block are different parts of the sequence, all of them together keep every
-        promise that is made of one, and other blocks have other sequences. None: pixels are independent.
+        promise that is made of one, and other blocks have other sequences. Trials take one pixel of each block. None:
+        pixels are independent.
     largest_index
         Largest index of a point.
     promises

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit._bases.realizations import Realizations
 from samplekit._integrate.hits import effective_hits
 from samplekit._integrate.loop import integrate, unit_square
 from samplekit._integrate.plan import check_points
@@ -203,7 +202,7 @@ def measure(
     np.empty(_KEPT_BYTES, np.uint8)
     for first in range(0, realizations, _AT_ONCE):
         part = slice(first, min(first + _AT_ONCE, realizations))
-        trials = Realizations.of_trials(part.start, part.stop, seed, scene.blocks)
+        trials = sampler.trials(part.start, part.stop, seed, scene.blocks)
 
         def observe(tile: Array, boxes: Array, part: slice = part) -> None:
             values = scene.values(tile, boxes)

@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit._bases.realizations import Realizations
 from samplekit._integrate.loop import Clock, integrate, unit_square
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from samplekit._bases.realizations import Realizations
     from samplekit._study.combinations import Combination
     from samplekit._study.request import Request
     from samplekit._study.resources import Resources
@@ -60,7 +60,7 @@ def set_up(combination: Combination, resources: Resources, progress: Callable[[i
     resources.prepare(combination.sampler, count, dims, progress)
 
     def fill() -> tuple[float, float]:
-        out, realizations = np.empty((1, dims, count)), Realizations.of_trials(0, 1, 0, scene.blocks)
+        out, realizations = np.empty((1, dims, count)), sampler.trials(0, 1, 0, scene.blocks)
         return _first_call_overhead(lambda: sampler.fill(out, realizations, count, 0))
 
     def evaluate() -> tuple[float, float]:
@@ -149,9 +149,8 @@ class TimingRun:
 def _choose_pixels(combination: Combination, request: Request, resources: Resources) -> tuple[Realizations, Array, int]:
     """Return the realisations and boxes of the pixels to time, and the number of such pixels in a trial."""
     if request.one_pixel:
-        trials = np.arange(_PLACES, dtype=np.int64)
-        blocks = resources.scene(combination.scene).blocks
-        return Realizations.of_pixels(trials, np.ones_like(trials), request.seed, blocks), unit_square(_PLACES), 1
+        sampler, blocks = resources.sampler(combination.sampler), resources.scene(combination.scene).blocks
+        return sampler.trials(0, _PLACES, request.seed, blocks), unit_square(_PLACES), 1
     pixels = resources.pixels(combination.scene, request.size)
     if not pixels.sampled.size:
         return *pixels.locate(np.zeros(1, np.int64), request.seed), 0

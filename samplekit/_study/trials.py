@@ -1,7 +1,7 @@
 """Carry out a job: draw its trials, evaluate the scene, compare with the reference, and sum the errors in batches.
 
-A trial of the unit square takes the realisation of a pixel far from those of the other trials: samplers that spread
-error over neighbouring pixels of an image cannot correlate the trials. A trial of an image takes its own seed.
+A trial of the unit square takes the realisation of a pixel far from those of the other trials, and a trial of an image
+its own seed: samplers that spread error over neighbouring pixels of an image cannot correlate the trials.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from samplekit._bases.realizations import Realizations, seed_word
+from samplekit._bases.realizations import seed_words
 from samplekit._integrate.loop import integrate, unit_square
 from samplekit._study.blurred import blurred_mean_square
 from samplekit._study.request import UNIT_SQUARE
@@ -38,14 +38,13 @@ finite.
 COLUMNS = 7
 _STRIDE = 4099
 """Pixels between trials: a prime, so that no two trials have the same place in a tile or a period of a sampler."""
-_ROW = 2**20
 _STEP = 0xD1342543DE82EF95
 _PIXELS_AT_ONCE = 2**16
 
 
 def seed_of(seed: int, trial: int) -> int:
     """Return the seed of an image: the seed of the study for trial 0, a hash of it for all others."""
-    return int(seed_word((seed + trial * _STEP) % 2**64)) if trial else seed
+    return int(seed_words((seed + trial * _STEP) % 2**64)[0]) if trial else seed
 
 
 def carry_out(job: Job, resources: Resources = OF_PROCESS, tick: Tick = lambda _: None) -> Array:
@@ -76,12 +75,10 @@ def carry_out(job: Job, resources: Resources = OF_PROCESS, tick: Tick = lambda _
 def _sum_squares(job: Job, resources: Resources, tick: Tick) -> Array:
     """Sum trials of the unit square: float64[counts, batches, COLUMNS]."""
     scene, sampler = resources.scene(job.scene), resources.sampler(job.sampler)
-    trial = np.arange(job.first, job.last, dtype=np.int64)
-    row = np.zeros_like(trial) if job.last <= _ROW else trial // _ROW
-    realizations = Realizations.of_pixels((trial - row * _ROW) * _STRIDE, row * _STRIDE, job.seed, scene.blocks)
-    means = integrate(scene, sampler, job.counts, realizations, unit_square(trial.size), tick=tick)
+    trials = sampler.trials(job.first, job.last, job.seed, scene.blocks, apart=_STRIDE)
+    means = integrate(scene, sampler, job.counts, trials, unit_square(len(trials)), tick=tick)
     errors = means - resources.reference(job.scene, UNIT_SQUARE).image[0, 0]
-    sums = np.zeros((len(errors), -(-trial.size // job.batch), COLUMNS))
+    sums = np.zeros((len(errors), -(-len(trials) // job.batch), COLUMNS))
     for own, batches in zip(errors, sums, strict=True):
         _sum_batches(own, job.batch, batches)
     return sums

@@ -26,6 +26,7 @@ from ._hashing import below as below
 from ._hashing import dimension_key as dimension_key
 from ._hashing import hash_index as hash_index
 from ._hashing import mix64 as mix64
+from ._hashing import pixel_key as pixel_key
 from ._hashing import random_below as random_below
 from ._hashing import second_key as second_key
 from ._hashing import unit as unit

@@ -32,6 +32,12 @@ def mix64(x: np.uint64) -> np.uint64:
 
 
 @helper
+def pixel_key(x: int, y: int, word: np.uint64, offset: np.uint64) -> np.uint64:
+    """The key of a pixel, with the words of :func:`samplekit.seed_words`; distinct pixels give distinct keys."""
+    return mix64((U64(x) | (U64(y) << U64(32))) ^ word) + offset
+
+
+@helper
 def dimension_key(key: np.uint64, dimension: int) -> np.uint64:
     """The key of one dimension of a realisation; distinct dimensions give distinct keys."""
     return mix64(key ^ (U64(dimension + 1) * _DIMENSION))

@@ -5,7 +5,7 @@ this is a hash in which every bit depends only on lower bits: Laine and Karras 2
 transparency", section 3.1, as used by Burley 2020, "Practical hash-based Owen scrambling". The multipliers are
 Vegdahl's (2021). Adding a random word and multiplying by a random odd one takes any two points to each pair that a
 nested scrambling allows equally often, so the variance is Owen's. A dimension's key gives 63 bits to the hash, and 21
-bits for the digits past the 32nd.
+bits for the digits past the 32nd. All points share those 21: of f = x, the variance is 1 + N^3 / 2^64 times Owen's.
 """
 
 import numpy as np

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from samplekit._bases.realizations import Realizations
 from samplekit._configured.sampler import ConfiguredSampler
 from samplekit._configured.sampler import sampler as configured_sampler
 from samplekit._quoting import reason
@@ -53,7 +52,7 @@ def answer(source: str | SamplerSpec | ConfiguredSampler, count: int, dims: int)
         sampler = configured_sampler(source)
         sampler.prepare(count, dims)
         out = np.full((_REALIZATIONS, dims, count), np.nan)
-        sampler.fill(out, Realizations.of_trials(0, _REALIZATIONS, _SEED), count, 0)
+        sampler.fill(out, sampler.trials(0, _REALIZATIONS, _SEED), count, 0)
         yield out
     except Exception as error:
         yield reason(error)

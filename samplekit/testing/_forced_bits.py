@@ -72,7 +72,7 @@ def answer(recipe: Recipe, dims: int, counts: list[int]) -> Iterator[list[tuple[
         for count in counts:
             out = np.full((2, dims, count), np.nan)
             try:
-                sampler.fill(out, Realizations.of_trials(0, 2, 0), count, 0)
+                sampler.fill(out, sampler.trials(0, 2, 0), count, 0)
             except SamplekitError:
                 # Values outside [0, 1) are what the checks look for; any other error is seen without forced bits too.
                 if not np.isfinite(out).all():

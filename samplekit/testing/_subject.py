@@ -229,7 +229,8 @@ class SamplerSubject(Subject):
             pass
         except SamplekitError as error:
             refusal = "refuses what it declares: " if isinstance(error, UsageError) else ""
-            example = self.request(count, out.shape[1], realizations.seed, int(realizations.x[0]))
+            pixel = int(realizations.x[0]), int(realizations.y[0])
+            example = self.request(count, out.shape[1], realizations.seed, pixel)
             raise CheckFailed(f"{refusal}{error}", example) from None
         self.drawn += out.shape[0] * out.shape[2]
         wrong = ~np.isfinite(out)
@@ -242,17 +243,12 @@ class SamplerSubject(Subject):
 
     def sets(self, count: int, dims: int, realizations: int = 1, *, seed: int = 0, first: int = 0) -> Array:
         """Return whole sets float64[R, D, N] of the realisations first to first + R."""
-        return self.fill(Realizations.of_trials(first, first + realizations, seed), count, dims)
-
-    def independent(self, first: int, stop: int) -> Realizations:
-        """Return realisations that are independent: pixels of different blocks, where pixels share a sequence."""
-        x = np.arange(first, stop, dtype=np.int64) * (self.spec.screen_block or 1)
-        return Realizations.of_pixels(x, np.zeros_like(x), 0)
+        return self.fill(self.sampler.trials(first, first + realizations, seed), count, dims)
 
     def independent_sets(self, realizations: int, count: int, dims: int, batch: int) -> Iterator[Array]:
         """Yield independent sets, float64[at most ``batch``, D, N] at a time."""
         for first in range(0, realizations, batch):
-            yield self.fill(self.independent(first, min(first + batch, realizations)), count, dims)
+            yield self.fill(self.sampler.trials(first, min(first + batch, realizations), 0), count, dims)
 
     def request(
         self, count: int, dims: int, seed: int = 0, realization: int | tuple[int, int] = 0, **details: Any

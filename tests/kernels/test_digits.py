@@ -5,7 +5,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from samplekit import Realizations
+import samplekit
 from samplekit._builtin.randomizers.owen import Owen
 from samplekit._builtin.randomizers.xor import Xor
 from samplekit.kernels._digits import DIGITS_LIMIT, largest_power
@@ -18,7 +18,7 @@ def test_siblings_of_the_last_digit_stay_siblings(base, randomizer):
     parent = power // base * 2 // 3 * base
     points = np.empty((1000, 1, base))
     points[:] = [(parent + i) / power for i in range(base)]
-    randomizer().apply(points, Realizations.of_trials(0, 1000, 0), (base,))
+    randomizer().apply(points, samplekit.sampler("random").trials(0, 1000, 0), (base,))
     broken = 0
     for row in points[:, 0].tolist():
         cells = sorted(int(Fraction(x) * power) for x in row)

@@ -36,7 +36,7 @@ def unmix(x):
 
 def random_point(seed, x, y, dimension, index):
     """A coordinate of the sampler `random`, from the definition of its numbers alone."""
-    key = mix((x | y << 32) ^ mix(seed ^ 0x9E3779B97F4A7C15))
+    key = (mix((x | y << 32) ^ mix(seed ^ 0x9E3779B97F4A7C15)) + mix(seed)) & WORD
     key = mix(key ^ ((dimension + 1) * 0xD1342543DE82EF95 & WORD))
     second = mix((key + 0xA0761D6478BD642F) & WORD)
     word = ((index + 1) * 0x9E3779B97F4A7C15 + key) & WORD

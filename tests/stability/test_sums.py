@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 import samplekit
-from samplekit._bases.realizations import Realizations
 from samplekit._integrate.loop import integrate, mean_of_constant, unit_square
 from samplekit._stability.extended import accumulate, distances
 from samplekit.kernels._sums import BLOCK, PairwiseSum, row_sums
@@ -93,7 +92,7 @@ def test_blocks_are_added_in_the_one_order_whatever_the_tile():
     scene, sampler = samplekit.scene("gaussian"), samplekit.sampler("random")
     whole = samplekit.estimate(scene, sampler, 5000, realizations=7, seed=3)
     for rows in (1, 2, 5):
-        trials, tile_bytes = Realizations.of_trials(0, 7, 3, scene.blocks), rows * 8 * 2 * BLOCK
+        trials, tile_bytes = sampler.trials(0, 7, 3, scene.blocks), rows * 8 * 2 * BLOCK
         (means,) = integrate(scene, sampler, (5000,), trials, unit_square(7), tile_bytes=tile_bytes)
         assert np.array_equal(means, whole)
 
@@ -114,7 +113,7 @@ def test_the_mean_of_a_constant_is_that_constant_within_a_digit(count, value):
 def test_estimates_equal_exact_means_of_the_same_values(text, count):
     """All values of a set, one by one, summed as rational numbers."""
     scene, sampler = samplekit.scene(text), samplekit.sampler("random")
-    trials = Realizations.of_trials(0, 1, 9, scene.blocks)
+    trials = sampler.trials(0, 1, 9, scene.blocks)
     blocks = []
     integrate(
         scene,

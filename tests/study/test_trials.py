@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 import samplekit
-from samplekit._bases.realizations import Realizations
 from samplekit._integrate.loop import integrate, unit_square
 from samplekit._metrics import metrics
 from samplekit._study.combinations import list_combinations
@@ -49,13 +48,19 @@ def test_images_have_seeds_of_their_own():
 
 def test_prefixes_are_the_estimates_of_their_own_sets():
     scene, sampler = samplekit.scene("gaussian"), samplekit.sampler("sobol+owen")
-    realizations = Realizations.of_trials(0, 50, 1, scene.blocks)
+    realizations = sampler.trials(0, 50, 1, scene.blocks)
     boxes = unit_square(50)
     counts = (1, 7, 1024, 2048, 2500, 4096)
     found = integrate(scene, sampler, counts, realizations, boxes)
     for row, count in zip(found, counts, strict=True):
         (own,) = integrate(scene, sampler, (count,), realizations, boxes)
         assert row == pytest.approx(own, rel=1e-13)
+
+
+def test_trials_have_no_end_at_the_largest_coordinate():
+    """4099 pixels apart, 1 047 809 trials fill a row."""
+    sums = carry_out(job("z-sobol", (4,), 1_047_800, 1_047_820), Resources())
+    assert sums[0, :, TRIALS].tolist() == [1.0] * 20
 
 
 def test_trials_of_samplers_that_spread_error_over_pixels_are_independent():

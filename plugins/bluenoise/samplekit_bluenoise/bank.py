@@ -27,7 +27,8 @@ MOST_POINTS = 2**20
 
 _U64 = np.uint64
 _PLACE = _U64(0x510E527FADE682D1)
-_SEED = 0xB1EE_015E
+_X, _Y = 0x33061B50, 0xFCADEBD4
+"""Set k of a bank is that of the pixel (k ^ _X, _Y) under seed 0."""
 _FRESH_POINTS = 2**16
 _MOST_BANKS = 4
 
@@ -128,7 +129,7 @@ class WholeSets(Sampler):
 
     def _make_bank(self, shape: tuple[int, int, int], progress: Callable[[int, int], None]) -> Array:
         sets = np.empty(shape)
-        realizations = Realizations.of_trials(0, shape[0], _SEED)
+        realizations = Realizations.of_pixels(np.arange(shape[0]) ^ _X, np.full(shape[0], _Y), 0)
         progress(0, shape[0])
         with ThreadPoolExecutor(os.cpu_count()) as pool:
             made = pool.map(lambda k: self.make(sets[k : k + 1], realizations[k : k + 1]), range(shape[0]))

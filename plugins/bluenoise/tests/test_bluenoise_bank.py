@@ -11,7 +11,6 @@ from samplekit_bluenoise.bank import WholeSets
 from samplekit_bluenoise.torus import on_torus
 
 import samplekit
-from samplekit import Realizations
 
 
 class Counted(WholeSets):
@@ -30,7 +29,7 @@ class Counted(WholeSets):
 
 def fill(sampler, rows=20, count=10, seed=0):
     out = np.empty((rows, 2, count))
-    sampler.fill(out, Realizations.of_trials(0, rows, seed), count, 0)
+    sampler.fill(out, samplekit.sampler("random").trials(0, rows, seed), count, 0)
     return out
 
 
@@ -67,7 +66,7 @@ def test_all_sets_symmetries_and_shifts_are_as_likely():
     sets[:, 1, 2] = 0.25
     sets[:, 0, 2] = np.arange(4) / 1024
     out = np.empty((8000, 2, 3))
-    bank._place(out, sets, Realizations.of_trials(0, 8000, 3).keys, 0, True)
+    bank._place(out, sets, samplekit.sampler("random").trials(0, 8000, 3).keys, 0, True)
     offset = out - out[:, :, :1]
     offset -= np.rint(offset)
     short, long = offset[:, :, 1], offset[:, :, 2]
@@ -86,7 +85,7 @@ def test_shifts_keep_distances_to_the_last_bit():
     sets = np.floor(rng.random((1, 2, 200)) * 2.0**53) * 2.0**-53
     sets[0, 0, :3] = 0.0, 1.0 - 2.0**-53, 2.0**-53
     out = np.empty((50, 2, 200))
-    bank._place(out, sets, Realizations.of_trials(0, 50, 1).keys, 0, True)
+    bank._place(out, sets, samplekit.sampler("random").trials(0, 50, 1).keys, 0, True)
 
     def distances(points):
         difference = np.abs(points[:, :, None] - points[:, None])

@@ -7,7 +7,6 @@ from samplekit_bluenoise.territories import cut_open, divide
 from scipy.special import j1
 
 import samplekit
-from samplekit import Realizations
 
 
 def strata_of(points, count, splits=0):
@@ -172,5 +171,5 @@ def test_a_background_that_is_too_coarse_shows():
 def test_any_count_and_prime_capacities(count):
     sampler = samplekit.sampler("ccvt:bank=0,capacity=37")
     out = np.empty((4, 2, count))
-    sampler.fill(out, Realizations.of_trials(0, 4, 0), count, 0)
+    sampler.fill(out, sampler.trials(0, 4, 0), count, 0)
     assert all(len(np.unique(row)) == count for row in out.reshape(8, count))

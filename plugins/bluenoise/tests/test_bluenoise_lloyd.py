@@ -6,7 +6,6 @@ from samplekit_bluenoise.voronoi import relax
 from scipy.spatial import Voronoi
 
 import samplekit
-from samplekit import Realizations
 
 
 def centroids(points):
@@ -91,5 +90,5 @@ def test_random_points_keep_their_clumps_for_long(spectrum):
 def test_no_step_leaves_the_initial_points(initial):
     sampler = samplekit.sampler(f"lloyd:steps=0,bank=0,initial={initial}")
     out = np.empty((3, 2, 30))
-    sampler.fill(out, Realizations.of_trials(0, 3, 1), 30, 0)
+    sampler.fill(out, sampler.trials(0, 3, 1), 30, 0)
     assert len(np.unique(out[:, 0])) == 90

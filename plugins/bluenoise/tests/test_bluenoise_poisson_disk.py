@@ -9,7 +9,7 @@ from samplekit_bluenoise.torus import packing_distance
 from scipy.spatial import cKDTree
 
 import samplekit
-from samplekit import MinimumDistance, Realizations, UsageError
+from samplekit import MinimumDistance, UsageError
 
 
 def least_distance(points):
@@ -66,7 +66,7 @@ def test_a_radius_that_finds_no_room_is_an_error_and_no_endless_loop():
     sampler = PoissonDisk(radius=0.95, method="darts", bank=0)
     began = time.perf_counter()
     with pytest.raises(UsageError, match="random disks left no room for 12 points"):
-        sampler.fill(np.empty((1, 2, 12)), Realizations.of_trials(0, 1, 0), 12, 0)
+        sampler.fill(np.empty((1, 2, 12)), samplekit.sampler("random").trials(0, 1, 0), 12, 0)
     assert time.perf_counter() - began < 20.0
 
 
@@ -137,7 +137,7 @@ def test_the_time_is_linear_in_the_count():
         sets = np.empty((realizations, 2, count))
         best = np.inf
         for seed in range(4):
-            keys = Realizations.of_trials(0, realizations, seed).keys
+            keys = samplekit.sampler("random").trials(0, realizations, seed).keys
             began = time.thread_time()
             throw_darts(sets, keys, distance)
             best = min(best, time.thread_time() - began)

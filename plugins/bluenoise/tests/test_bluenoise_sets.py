@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 import samplekit
-from samplekit import Realizations, UsageError
+from samplekit import UsageError
 
 FRESH = [
     "poisson-disk",
@@ -34,7 +34,7 @@ def fill(text, realizations, count, start=0, stop=None):
 @pytest.mark.parametrize("text", FRESH + SHARED)
 @pytest.mark.parametrize("count", [1, 2, 3, 4, 20, 97])
 def test_parts_orders_and_batches_do_not_matter(text, count):
-    realizations = Realizations.of_trials(0, 9, 3)
+    realizations = samplekit.sampler("random").trials(0, 9, 3)
     whole = fill(text, realizations, count)
     assert whole.min() >= 0.0
     assert whole.max() < 1.0
@@ -48,7 +48,7 @@ def test_parts_orders_and_batches_do_not_matter(text, count):
 
 @pytest.mark.parametrize("text", FRESH + SHARED)
 def test_threads_give_the_same_points(text):
-    realizations = Realizations.of_trials(0, 40, 1)
+    realizations = samplekit.sampler("random").trials(0, 40, 1)
     whole = fill(text, realizations, 50)
     with ThreadPoolExecutor(8) as pool:
         parts = list(pool.map(lambda row: fill(text, realizations[row : row + 1], 50), range(40)))
@@ -57,8 +57,8 @@ def test_threads_give_the_same_points(text):
 
 @pytest.mark.parametrize("text", FRESH + SHARED)
 def test_another_seed_gives_other_points(text):
-    one = fill(text, Realizations.of_trials(0, 3, 0), 30)
-    other = fill(text, Realizations.of_trials(0, 3, 1), 30)
+    one = fill(text, samplekit.sampler("random").trials(0, 3, 0), 30)
+    other = fill(text, samplekit.sampler("random").trials(0, 3, 1), 30)
     assert not np.any(one == other)
 
 
@@ -68,7 +68,7 @@ def test_points_are_uniform_and_estimates_unbiased(text):
 
     The points of a set repel, which lowers the chi-square. False alarm of a test below 1e-6.
     """
-    points = fill(text, Realizations.of_trials(0, 1500, 12), 6).transpose(0, 2, 1).reshape(-1, 2)
+    points = fill(text, samplekit.sampler("random").trials(0, 1500, 12), 6).transpose(0, 2, 1).reshape(-1, 2)
     cells = np.bincount((points * 6).astype(int) @ [6, 1], minlength=36)
     expected = len(points) / 36
     assert ((cells - expected) ** 2 / expected).sum() < 35 + 6 * np.sqrt(70)
@@ -107,7 +107,7 @@ def test_samplers_can_be_pickled():
 
     sampler = pickle.loads(pickle.dumps(Lloyd(steps=1, initial="random", bank=2)))
     out = np.empty((1, 2, 5))
-    sampler.fill(out, Realizations.of_trials(0, 1, 0), 5, 0)
+    sampler.fill(out, samplekit.sampler("random").trials(0, 1, 0), 5, 0)
 
 
 def test_naming_the_samplers_imports_no_implementation():

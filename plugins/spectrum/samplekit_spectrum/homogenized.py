@@ -11,10 +11,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit import ConfiguredSampler, Realizations, randomizer
+from samplekit import ConfiguredSampler, randomizer
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
+
+    from samplekit import Realizations
 
 _KEPT = 64
 """Number of sets that are kept in memory: more than threads work on."""
@@ -27,12 +29,14 @@ class _SharedSets(ConfiguredSampler):
         super().__init__(*sampler.followed_by("shift").parts)
         self._shifts = shifts
         self._shift = randomizer("shift")
+        # Realisation r is pixel r; the sets are taken from pixels as far apart as the sampler needs.
+        self._apart = 1
 
         # Realisations of one set are often asked for in several calls, by several threads.
         @lru_cache(maxsize=_KEPT)
         def points_of_set(number: int, seed: int, dims: int, count: int) -> NDArray[np.float64]:
             points = np.empty((1, dims, count))
-            sampler.fill(points, Realizations.of_trials(number, number + 1, seed), count, 0)
+            sampler.fill(points, sampler.trials(number, number + 1, seed), count, 0)
             return np.asarray(points[0])
 
         self._points_of_set = points_of_set

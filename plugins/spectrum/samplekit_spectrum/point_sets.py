@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from samplekit import Realizations
-
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -38,7 +36,7 @@ class PointSets:
 
     def __init__(self, source: Source, start: int, stop: int) -> None:
         self.source, self.members = source, stop - start
-        self._realizations = Realizations.of_trials(start, stop, source.seed)
+        self._realizations = source.sampler.trials(start, stop, source.seed)
         in_chunks = source.sampler.streams and source.count > CHUNK
         self._whole = None if in_chunks else self._points(0, source.count)
 

@@ -25,7 +25,7 @@ RANDOMIZERS = (
     RandomizerSpec(
         "owen",
         _RANDOMIZERS + "owen:Owen",
-        "nested uniform scrambling of the digits",
+        "nested uniform scrambling of the digits (in base 2, of the first 32: all points share the others)",
         reference="Owen 1995; Laine, Karras 2011; Burley 2020",
         keeps=("net",),
         largest_index=2**32 - 1,

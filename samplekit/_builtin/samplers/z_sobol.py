@@ -24,7 +24,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from samplekit import Realizations, Sampler, seed_word
+from samplekit import Realizations, Sampler, seed_words
 from samplekit._builtin.samplers.digital_sequence import write_scrambled
 from samplekit._builtin.samplers.pixel_order import TILE_LEVELS, matched_place, random_place
 from samplekit.kernels import (
@@ -35,6 +35,7 @@ from samplekit.kernels import (
     kernel,
     mix64,
     owen_key,
+    pixel_key,
     scatter,
     second_key,
     shuffle,
@@ -63,9 +64,16 @@ def _pascal(v: np.uint32) -> np.uint32:
     return _U32(v ^ (v >> _U32(16)))
 
 
-@kernel("void(float64[:,:,::1], int64[::1], int64[::1], uint64, boolean, int64, int64)")
+@kernel("void(float64[:,:,::1], int64[::1], int64[::1], uint64, uint64, boolean, int64, int64)")
 def _fill(
-    out: Array, xs: NDArray[np.int64], ys: NDArray[np.int64], seed: np.uint64, matched: bool, bits: int, start: int
+    out: Array,
+    xs: NDArray[np.int64],
+    ys: NDArray[np.int64],
+    word: np.uint64,
+    offset: np.uint64,
+    matched: bool,
+    bits: int,
+    start: int,
 ) -> None:
     realizations, dims, points = out.shape
     within = (1 << TILE_LEVELS) - 1
@@ -75,7 +83,7 @@ def _fill(
     digits = np.empty(points, np.uint32)
     for r in range(realizations):
         x, y = xs[r], ys[r]
-        tile = mix64((_U64(x >> TILE_LEVELS) | (_U64(y >> TILE_LEVELS) << _U64(32))) ^ seed)
+        tile = pixel_key(x >> TILE_LEVELS, y >> TILE_LEVELS, word ^ _TILE, offset)
         for i in range(points):
             order[i] = _U32(start + i)
         for d in range(0, dims, 2):
@@ -121,5 +129,5 @@ class ZSobol(Sampler):
 
     def fill(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
         """Write points of the sets; see :meth:`Sampler.fill`."""
-        seed = seed_word(realizations.seed) ^ _TILE
-        _fill(out, realizations.x, realizations.y, seed, self._matched, count.bit_length() - 1, start)
+        words = seed_words(realizations.seed)
+        _fill(out, realizations.x, realizations.y, *words, self._matched, count.bit_length() - 1, start)

@@ -10,7 +10,6 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 
-from samplekit._bases.realizations import Realizations
 from samplekit._configured.sampler import sampler as configured_sampler
 from samplekit.testing._elsewhere import judge_elsewhere
 from samplekit.testing._judge import judge_equal
@@ -34,7 +33,7 @@ def check_determinism(subject: SamplerSubject) -> None:
 
 
 def _judge_repeated_requests(subject: SamplerSubject, count: int, dims: int) -> None:
-    asked = Realizations.of_trials(0, _REALIZATIONS, 0)
+    asked = subject.sampler.trials(0, _REALIZATIONS, 0)
     whole = subject.fill(asked, count, dims)
     judge_equal(subject, whole, subject.fill(asked, count, dims), count, "when asked again")
     for other in subject.counts(count + 1, 2 * count, dims=dims):
@@ -51,7 +50,7 @@ def _judge_repeated_requests(subject: SamplerSubject, count: int, dims: int) -> 
     with ThreadPoolExecutor(1) as thread:
         in_a_thread = thread.submit(subject.fill, asked, count, dims).result()
     judge_equal(subject, whole, in_a_thread, count, "in another thread")
-    if not (asked.keys == Realizations.of_trials(0, _REALIZATIONS, 0).keys).all():
+    if not (asked.keys == subject.sampler.trials(0, _REALIZATIONS, 0).keys).all():
         raise CheckFailed("changes the keys of the realisations that it was given")
 
 
@@ -96,7 +95,7 @@ def check_prefix(subject: SamplerSubject) -> None:
 def check_slices(subject: SamplerSubject) -> None:
     """Points start to stop are that slice of the whole set."""
     dims = subject.dims(3)
-    realizations = Realizations.of_trials(0, 3, 0)
+    realizations = subject.sampler.trials(0, 3, 0)
     for wanted in (7, 64, 100) if subject.quick else (7, 64, 100, 1500, 2100):
         count = subject.counts(wanted, dims=dims)[0]
         whole = subject.fill(realizations, count, dims)

@@ -40,7 +40,7 @@ def check_across_dimensions(subject: SamplerSubject) -> None:
     count = counts[0]
     wanted = _QUICK_REALIZATIONS if subject.quick else _REALIZATIONS
     realizations = subject.affordable(wanted, count, dims, least=16) if subject.spec.randomized else 1
-    asked = subject.independent(0, realizations)
+    asked = subject.sampler.trials(0, realizations, 0)
     values = subject.fill(asked, count, dims)
     correlations = pair_correlations(values)
     tests = 2 * correlations.shape[1]

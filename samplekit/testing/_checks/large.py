@@ -28,7 +28,7 @@ def check_large_index(subject: SamplerSubject) -> None:
     counts = sorted({n for n in wanted if n >= 2**16 and subject.allows(n, dims)})
     if not counts:
         raise NotApplicable(f"its largest index is {subject.spec.largest_index}")
-    realizations = Realizations.of_trials(0, 2, 0)
+    realizations = subject.sampler.trials(0, 2, 0)
     for count in counts:
         beginning = subject.fill(realizations, count, dims, 0, _POINTS)
         for start in sorted({count - _POINTS, *(p - _POINTS // 2 for p in _PLACES if p + _POINTS // 2 <= count)}):
@@ -58,7 +58,7 @@ def _judge_late_blocks(subject: SamplerSubject, net: Net) -> None:
         count = PowersOf(net.base).above(place + block - 1, dims)
         if subject.allows(count, dims):
             start = place // block * block
-            values = subject.fill(Realizations.of_trials(0, 2, 0), count, dims, start, block)
+            values = subject.fill(subject.sampler.trials(0, 2, 0), count, dims, start, block)
             judge_promise(subject, net, values, count, start=start)
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from samplekit._bases.realizations import Realizations
 from samplekit._specs import MinimumDistance, Net, Promise, SamplerSpec, Strata
 from samplekit.testing._judge import judge_promise
 from samplekit.testing._result import NotApplicable, conformance_check
@@ -84,7 +83,7 @@ def _judge_later_blocks(subject: SamplerSubject, net: Net, block: int, dims: int
     count = block * net.base**2
     if not subject.allows(count, dims):
         return
-    realizations = Realizations.of_trials(0, 4 if subject.spec.randomized else 1, 0)
+    realizations = subject.sampler.trials(0, 4 if subject.spec.randomized else 1, 0)
     for start in range(block, count, block)[: 4 if subject.quick else 24]:
         values = subject.fill(realizations, count, dims, start, block)
         judge_promise(subject, net, values, count, start=start)

@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 
-from samplekit._bases.realizations import Realizations
 from samplekit.testing._result import CheckFailed, conformance_check
 from samplekit.testing._subject import Array, SamplerSubject
 
@@ -80,6 +79,6 @@ def _judge_guarded(subject: SamplerSubject, count: int, dims: int) -> None:
     untouched = -7.0
     buffer = np.full((4, dims, count), untouched)
     buffer[1:3] = np.nan
-    subject.write(buffer[1:3], Realizations.of_trials(0, 2, 0), count, 0, subject.sampler)
+    subject.write(buffer[1:3], subject.sampler.trials(0, 2, 0), count, 0, subject.sampler)
     if (buffer[[0, 3]] != untouched).any():
         raise CheckFailed("writes outside of the array that it was given", subject.request(count, dims))

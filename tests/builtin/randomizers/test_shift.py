@@ -41,7 +41,7 @@ def test_a_coordinate_that_reaches_one_wraps_to_the_left():
     """Where x + shift is just below, at or above 1, nothing but [0, 1) comes out."""
     from samplekit._builtin.randomizers.shift import Shift
 
-    realizations = samplekit.Realizations.of_trials(0, 500, 4)
+    realizations = samplekit.sampler("random").trials(0, 500, 4)
     zero = np.zeros((500, 1, 1))
     Shift().apply(zero, realizations, (2,))
     shift = zero[:, 0, 0]

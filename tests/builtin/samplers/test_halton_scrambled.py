@@ -41,12 +41,15 @@ def test_every_digit_place_is_uniform(text):
 
 
 def test_digits_permutes_each_place_the_same_way_for_all_points():
-    """In base 7: the second digit of a point depends on the second digit of its index alone."""
+    """In base 7: the second digit of a point depends on the second digit of its index alone.
+
+    Of 50 random permutations of 7 digits, six or more come again with a probability of 3e-7.
+    """
     points = samplekit.points("halton:scramble=digits", 49, 4, realizations=50, seed=5)[:, :, 3]
     second = np.floor(points * 49).astype(int).reshape(50, 7, 7) % 7
     assert (second == second[:, :, :1]).all()
     assert (np.sort(second[:, :, 0], axis=1) == np.arange(7)).all()
-    assert np.unique(second[:, :, 0], axis=0).shape[0] == 50
+    assert np.unique(second[:, :, 0], axis=0).shape[0] > 44
 
 
 def test_permutations_of_digits_are_uniform():

@@ -5,7 +5,6 @@ import pytest
 
 import samplekit
 from samplekit import LatinStrata, OrthogonalArray, PrimePowers
-from samplekit._bases.realizations import Realizations
 
 REALIZATIONS = 100
 STYLES = ("jittered", "multi-jittered", "correlated")
@@ -85,7 +84,7 @@ def test_slices_equal_whole_arrays(strength, count, offset):
 
 def test_sets_do_not_depend_on_the_order_in_which_they_are_asked_for():
     sampler = samplekit.sampler("orthogonal-array")
-    everything = Realizations.of_trials(0, 7, 3)
+    everything = sampler.trials(0, 7, 3)
     whole = np.empty((7, 4, 49))
     sampler.fill(whole, everything, 49, 0)
     for first in range(7):

@@ -83,7 +83,7 @@ def test_other_numbers_than_the_file_has_are_refused(chosen):
     with pytest.raises(UsageError, match=r"points\.npy makes points in 3 dimensions, not 2"):
         sampler.check(12, 2)
     with pytest.raises(UsageError, match="5 sets of 12 points in 3 dimensions, not 4 points in 3"):
-        sampler.fill(np.empty((1, 3, 4)), Realizations.of_trials(0, 1, 0), 4, 0)
+        sampler.fill(np.empty((1, 3, 4)), sampler.trials(0, 1, 0), 4, 0)
 
 
 def test_notes_say_what_is_taken(chosen):

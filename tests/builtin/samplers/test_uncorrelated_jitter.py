@@ -19,7 +19,7 @@ def cell(x, cells):
 def filled(count, dims, blocks=(), realizations=REALIZATIONS, seed=0, start=0, stop=None):
     sampler = samplekit.sampler("uncorrelated-jitter")
     out = np.empty((realizations, dims, (count if stop is None else stop) - start))
-    sampler.fill(out, Realizations.of_trials(0, realizations, seed, blocks), count, start)
+    sampler.fill(out, sampler.trials(0, realizations, seed, blocks), count, start)
     return out
 
 
@@ -95,7 +95,7 @@ def test_slices_equal_the_whole(count):
 
 def test_realisations_do_not_depend_on_their_order():
     sampler = samplekit.sampler("uncorrelated-jitter")
-    everything = Realizations.of_trials(0, 7, 3)
+    everything = sampler.trials(0, 7, 3)
     backwards = Realizations(everything.keys[::-1].copy(), everything.x[::-1], everything.y[::-1], 3)
     ahead, behind = np.empty((7, 5, 36)), np.empty((7, 5, 36))
     sampler.fill(ahead, everything, 36, 0)
