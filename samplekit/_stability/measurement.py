@@ -119,7 +119,8 @@ class Measurement:
 def _digits_lost(errors: Array, magnitudes: Array) -> float:
     """Return the decimal digits of the largest error, in roundings of its magnitude; at least 0."""
     seen = (errors != 0.0) & (magnitudes > 0.0)
-    roundings = np.abs(errors[seen]) / (magnitudes[seen] * ROUNDOFF)
+    # A denormal magnitude times a rounding would vanish.
+    roundings = np.abs(errors[seen]) / ROUNDOFF / magnitudes[seen]
     return max(0.0, math.log10(float(roundings.max()))) if roundings.size else 0.0
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import samplekit
-from samplekit._stability.measurement import _root_mean_square, _spread
+from samplekit._stability.measurement import _digits_lost, _root_mean_square, _spread
 
 ROUNDOFF = Fraction(1, 2**53)
 
@@ -48,6 +48,11 @@ def test_a_root_mean_square_neither_overflows_nor_vanishes():
     for scale in (1e-300, 1e-160, 1.0, 1e160, 1e300):
         assert _root_mean_square(np.array([3.0, -4.0]) * scale) == pytest.approx(np.sqrt(12.5) * scale, rel=1e-15)
     assert _root_mean_square(np.zeros(3)) == 0.0
+
+
+def test_digits_lost_of_denormal_sums_are_finite():
+    tiny = np.array([5e-324])
+    assert _digits_lost(tiny, tiny) == pytest.approx(53 * np.log10(2), rel=1e-15)
 
 
 def test_spectra_merge_in_any_order_within_a_few_roundings():
