@@ -10,6 +10,7 @@ import numpy as np
 from samplekit._study.errors import errors_of, influence, ratio_of
 from samplekit._study.fit import fit_line, theoretical_exponent
 from samplekit._study.results import Fit, Interval, LeftOut, Row, Seconds, Spread, Times
+from samplekit._study.timing import falling, typical_seconds
 from samplekit._study.trials import TRIALS, Array
 
 if TYPE_CHECKING:
@@ -68,6 +69,8 @@ class Analysis:
             for each in combinations
             if not len(self._sums[each])
         ]
+        self._seconds = typical_seconds({each: store.laps(each) for each in combinations})
+        self._falls = falling(self._seconds)
         self.complete = all(self._done[each] == each.trials for each in combinations)
 
     def rows(self) -> list[Row]:
@@ -103,7 +106,7 @@ class Analysis:
         reference = self._resources.reference(combination.scene, self._request.size)
         samples = self._samples(combination)
         times = self._times(combination)
-        time = None if times is None else times.total.cpu.median + self._cost * 1e-9 * samples
+        time = None if times is None else (times.seconds.estimate or 0.0) + self._cost * 1e-9 * samples
         mse: Interval = errors["mse"]
         left_out = self._why_left_out(combination, mse.estimate, reference)
         notes = list(combination.notes)
@@ -115,6 +118,7 @@ class Analysis:
             notes.append(left_out)
         if errors["invalid_pixels"]:
             notes.append(f"{errors['invalid_pixels']} pixels of all trials were not finite and are left out")
+        notes += self._fall_note(combination)
         return Row(
             scene=combination.scene,
             sampler=combination.sampler,
@@ -135,6 +139,16 @@ class Analysis:
             notes=notes,
             pictures=None,
         )
+
+    def _fall_note(self, combination: Combination) -> list[str]:
+        """Return a note if a row takes less time than one of fewer samples; rows that seem to were measured again."""
+        slower = self._falls.get(combination)
+        if slower is None:
+            return []
+        high, low = self._seconds[combination].high, self._seconds[slower].low
+        apart = high is not None and low is not None and high < low
+        doubt = "" if apart else "; the intervals of the two times overlap"
+        return [f"takes less time than with {slower.count} sample{'' if slower.count == 1 else 's'}{doubt}"]
 
     def _samples(self, combination: Combination) -> int:
         """Return the number of samples of one trial."""
@@ -170,9 +184,12 @@ class Analysis:
         laps = self._store.laps(combination)
         if not len(laps):
             return None
-        points, scene = (Seconds(_spread(laps[:, column]), _spread(laps[:, column + 1])) for column in (0, 2))
-        total = Seconds(_spread(laps[:, 0] + laps[:, 2]), _spread(laps[:, 1] + laps[:, 3]))
-        return Times(points, scene, total, *self._store.setup(combination), len(laps))
+        points, scene = (Seconds(_spread(laps[:, column]), _spread(laps[:, column + 1])) for column in (1, 3))
+        total = Seconds(_spread(laps[:, 1] + laps[:, 3]), _spread(laps[:, 2] + laps[:, 4]))
+        rounds = np.unique(laps[:, 0]).size
+        return Times(
+            points, scene, total, *self._store.setup(combination), len(laps), rounds, self._seconds[combination]
+        )
 
 
 def _spread(seconds: Array) -> Spread:

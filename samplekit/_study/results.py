@@ -20,14 +20,14 @@ LEVEL = 0.95
 
 @dataclass(frozen=True)
 class Interval:
-    """An estimate with its 95 % confidence interval over trials.
+    """An estimate with its 95 % confidence interval: of errors over trials, of times over rounds.
 
     Attributes
     ----------
     estimate
         None if nothing was measured, or if the value is not finite.
     low, high
-        Ends of the interval; None if there is none: a single trial, or a sampler that is not random.
+        Ends of the interval; None if there is none: a single trial, a sampler that is not random, too few rounds.
     """
 
     estimate: float | None
@@ -64,6 +64,11 @@ class Times:
         Seconds spent once, before the first sample: making tables and banks of sets, compiling kernels or loading them.
     laps
         Number of repetitions; those of different combinations take turns.
+    rounds
+        Number of rounds, apart in time, in which the laps were taken.
+    seconds
+        Processor seconds of points and scene together, for comparing the rows of a study: what slowed all rows of a
+        round alike is taken out. The interval is over rounds, and there is none from fewer than six.
     """
 
     points: Seconds
@@ -72,6 +77,8 @@ class Times:
     setup_cpu: float
     setup_wall: float
     laps: int
+    rounds: int
+    seconds: Interval
 
 
 @dataclass(frozen=True)
@@ -134,8 +141,8 @@ class Row:
     times
         Measured times; None if none were measured.
     time
-        Seconds of a trial that the answers use: the median processor time of ``times.total``, plus the extra cost per
-        sample. None without ``times``.
+        Seconds of a trial that the answers use: the estimate of ``times.seconds``, plus the extra cost per sample. None
+        without ``times``.
     fitted, left_out
         Whether the fit uses this row, and why not.
     notes

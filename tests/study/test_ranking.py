@@ -104,7 +104,9 @@ def test_front_does_not_take_turns_by_noise():
     one = row("one", 1, 0.1, 1.0)
     same_error = row("two", 1, 0.0999, 1.01)
     better = row("one", 4, 0.02, 2.0)
-    as_fast = replace(row("two", 4, 0.01, 1.05), times=Times(clock, clock, clock, 0.0, 0.0, 9))
+    as_fast = replace(
+        row("two", 4, 0.01, 1.05), times=Times(clock, clock, clock, 0.0, 0.0, 9, 9, Interval(1.0, 0.9, 1.1))
+    )
     assert [choice.sampler for choice in rank([one, same_error, better], None, 0.0).front] == ["one", "one"]
-    timed = replace(one, times=Times(clock, clock, clock, 0.0, 0.0, 9))
+    timed = replace(one, times=Times(clock, clock, clock, 0.0, 0.0, 9, 9, Interval(1.0, 0.9, 1.1)))
     assert [(choice.sampler, choice.count) for choice in rank([timed, as_fast], None, 0.0).front] == [("two", 4)]
