@@ -129,18 +129,18 @@ class Study:
         numbers = itertools.count(1 + max(int(self._store.laps(each)[:, 0].max(initial=0.0)) for each in seconds))
 
         def measure(timings: Sequence[TimingRun], rounds: int, spent: float = 0.0) -> None:
-            """Run rounds of laps after the errors took so many seconds."""
+            """Run rounds of laps after the errors took so many seconds; some combinations get a part of the budget."""
             budget = self._options.budget
             if budget is None:
                 budget = max(_BUDGET_SHARE * spent * ROUNDS / rounds, _SMALLEST_BUDGET)
+            share = budget / ROUNDS * len(timings) / len(self._combinations)
             for number in itertools.islice(numbers, rounds):
-                run_round(timings, number, budget / ROUNDS, self._store, partial(progress, "measuring run times"))
+                run_round(timings, number, share, self._store, partial(progress, "measuring run times"))
 
         self._compute_errors(seconds, progress, partial(measure, timings))
         if self._options.times:
             found = falling(typical_seconds({each: self._store.laps(each) for each in self._combinations}))
-            doubtful = {combination.pair for combination in found}
-            again = [timing for timing in timings if timing.combination.pair in doubtful]
+            again = [timing for timing in timings if timing.combination in {*found, *found.values()}]
             if again:
                 measure(again, ROUNDS)
 

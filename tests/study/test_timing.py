@@ -222,14 +222,14 @@ def test_a_time_that_falls_is_found():
 
 @pytest.fixture
 def fake_laps(monkeypatch):
-    """Let laps take seconds that a function of the combination returns; return who was measured in which round."""
+    """Let laps take seconds that a function of the combination returns; return what was measured in which round."""
 
     def start(cost):
         rounds = []
         monkeypatch.setattr(TimingRun, "lap", lambda self: (cost(self.combination), 0.0, 0.0, 0.0))
 
         def observed(timings, number, *rest):
-            rounds.append((number, {each.combination.pair[1] for each in timings}))
+            rounds.append((number, {(each.combination.sampler, each.combination.count) for each in timings}))
             run_round(timings, number, *rest)
 
         monkeypatch.setattr(study, "run_round", observed)
@@ -242,7 +242,8 @@ def test_a_time_that_falls_is_measured_again_and_said(fake_laps):
     fallen = {("r2", 4): 0.5}
     rounds = fake_laps(lambda each: fallen.get((each.sampler, each.count), float(each.count)))
     found = samplekit.compare(["random", "r2"], "disk", [1, 4, 16], trials=2, size=(1, 1), budget=0.0)
-    assert [who for _, who in rounds] == ROUNDS * [{"random", "r2"}] + ROUNDS * [{"r2"}]
+    everyone = {(sampler, count) for sampler in ("random", "r2") for count in (1, 4, 16)}
+    assert [who for _, who in rounds] == ROUNDS * [everyone] + ROUNDS * [{("r2", 1), ("r2", 4)}]
     assert [number for number, _ in rounds] == list(range(1, 2 * ROUNDS + 1))
     notes = {(row.sampler, row.count): row.notes for row in found.rows}
     assert notes.pop(("r2", 4)) == ["takes less time than with 1 sample"]
