@@ -59,8 +59,8 @@ def compare(
     dask
         Address of a Dask scheduler whose workers compute the errors.
     times, budget
-        Whether run times are measured, and for how many seconds; None: a tenth of the time that the errors take, and at
-        least one second.
+        Whether run times are measured, and for how many seconds of the processor; None: a tenth of the time that the
+        errors take, and at least one second. A lap of every row in six or nine rounds is taken in any case.
     cost
         Extra cost per sample, in nanoseconds, as if a renderer shaded it.
     target

@@ -99,8 +99,12 @@ def _table(rendering: Rendering) -> list[str]:
     lines = [f"{plan.pixels.scene.text}, {plan.sampler.text}, {plan.count} spp, {size[0]}x{size[1]}, seed {plan.seed}"]
     for name, number in rendering.metrics.items():
         lines.append(f"  {name:<16}{number if isinstance(number, int) else f'{number:.6g}'}")
-    times = ", ".join(f"{name} {seconds:.3f}" for name, seconds in rendering.seconds.items())
-    return [*lines, f"  {'seconds':<16}{times}", *(f"  {'wrote':<16}{file}" for file in rendering.files)]
+    setup, points, scene, reference, total = (
+        f"{name} {rendering.seconds[name]:.3f}" for name in ("setup", "points", "scene", "reference", "total")
+    )
+    summed = f" (each summed over {rendering.threads} threads)" if rendering.threads > 1 else ""
+    lines.append(f"  {'seconds':<16}{setup}, {points} and {scene}{summed}, {reference}, {total}")
+    return [*lines, *(f"  {'wrote':<16}{file}" for file in rendering.files)]
 
 
 def _warn_of_an_old_error_picture(rendering: Rendering) -> None:

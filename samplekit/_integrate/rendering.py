@@ -49,8 +49,11 @@ class Rendering:
     metrics
         Names of ``--json`` to numbers.
     seconds
-        ``setup`` (what the sets share), ``points`` and ``scene`` summed over threads, ``reference`` and ``total`` by
-        the wall clock.
+        By the wall clock. ``setup``: what the sets share, and one first call of sampler and scene, which may compile
+        kernels or load them. ``points`` and ``scene``: sums over all threads, each of which adds its own seconds, so
+        that they may exceed ``total``. ``reference``, and ``total`` of it all.
+    threads
+        Number of threads that drew the samples.
     plan
         What was rendered.
     reference_kind
@@ -70,6 +73,7 @@ class Rendering:
     error: NDArray[np.float64] | None
     metrics: dict[str, float]
     seconds: dict[str, float]
+    threads: int
     plan: Plan = field(repr=False)
     reference_kind: str = ""
     files: tuple[Path, ...] = ()
@@ -109,6 +113,7 @@ class Rendering:
             "seed": plan.seed,
             **_finite(self.metrics),
             "reference": self.reference_kind,
+            "threads": self.threads,
             "seconds": self.seconds,
             "files": [str(file) for file in self.files],
         }
@@ -297,6 +302,8 @@ def render_plan(
         scene.check_reference(pixels.x_edges[:2], pixels.y_edges[:2])
     began = time.perf_counter()
     plan.sampler.prepare(plan.count, scene.dims, preparing)
+    if pixels.sampled.size:
+        _make_first_calls(plan)
     seconds = {"setup": time.perf_counter() - began}
     image, points, evaluation = _render_samples(plan, threads, progress)
     seconds |= {"points": points, "scene": evaluation}
@@ -330,7 +337,7 @@ def render_plan(
         "pixels_left_out": len(pixels) - sampled,
     }
     seconds["total"] = time.perf_counter() - began
-    return Rendering(image, reference, error, metrics, seconds, plan, reference_kind)
+    return Rendering(image, reference, error, metrics, seconds, threads, plan, reference_kind)
 
 
 def _finite(numbers: Mapping[str, float]) -> dict[str, float | None]:
@@ -345,6 +352,15 @@ def _check_metrics(plan: Plan, ssim: bool, flip: bool) -> None:
         from samplekit._metrics import check_ssim
 
         check_ssim(plan.pixels.window[2:])
+
+
+def _make_first_calls(plan: Plan) -> None:
+    """Call sampler and scene once and drop the result: kernels are compiled before samples are drawn and timed."""
+    pixels, scene, sampler = plan.pixels, plan.pixels.scene, plan.sampler
+    realizations, boxes = pixels.locate(pixels.sampled[:1], plan.seed)
+    points = np.empty((1, scene.dims, 1 if sampler.streams else plan.count))
+    sampler.fill(points, realizations, plan.count, 0)
+    scene.sums(np.ascontiguousarray(points[:, :, :1]), boxes, np.empty(1))
 
 
 def _render_samples(plan: Plan, threads: int, progress: Progress) -> tuple[NDArray[np.float64], float, float]:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 _INTERVALS = ("mse", "rmse", "bias", "variance", "squared_bias", "blurred_mse", "efficiency", "ratio", "time")
 _SECONDS = itertools.product(("points", "scene", "total"), ("cpu", "wall"), ("median", "lower", "upper"))
-_TIMES = (*map(".".join, _SECONDS), "setup_cpu", "setup_wall", "laps")
+_TIMES = (*map(".".join, _SECONDS), "setup_cpu", "setup_wall", "laps", "rounds")
 """Attributes of the times of a row."""
 
 

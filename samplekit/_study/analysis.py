@@ -11,6 +11,7 @@ from samplekit._study.errors import FEW_TRIALS, INFINITE_VARIANCE, errors_of, in
 from samplekit._study.fit import fit_line, theoretical_exponent
 from samplekit._study.intervals import LEAST_TRIALS, derived_interval
 from samplekit._study.results import Fit, Interval, LeftOut, Row, Seconds, Spread, Times
+from samplekit._study.timing import falling, typical_seconds
 from samplekit._study.trials import SQUARE, TRIALS, Array
 
 if TYPE_CHECKING:
@@ -69,6 +70,8 @@ class Analysis:
             for each in combinations
             if not len(self._sums[each])
         ]
+        self._seconds = typical_seconds({each: store.laps(each) for each in combinations})
+        self._falls = falling(self._seconds)
         self.complete = all(self._done[each] == each.trials for each in combinations)
 
     def rows(self) -> list[Row]:
@@ -141,6 +144,7 @@ class Analysis:
             notes.append(left_out)
         if errors["invalid_pixels"]:
             notes.append(f"{errors['invalid_pixels']} pixels of all trials were not finite and are left out")
+        notes += self._fall_note(combination)
         return Row(
             scene=combination.scene,
             sampler=combination.sampler,
@@ -162,6 +166,16 @@ class Analysis:
             notes=notes,
             pictures=None,
         )
+
+    def _fall_note(self, combination: Combination) -> list[str]:
+        """Return a note if a row takes less time than one of fewer samples; rows that seem to were measured again."""
+        slower = self._falls.get(combination)
+        if slower is None:
+            return []
+        high, low = self._seconds[combination].high, self._seconds[slower].low
+        apart = high is not None and low is not None and high < low
+        doubt = "" if apart else "; the intervals of the two times overlap"
+        return [f"takes less time than with {slower.count} sample{'' if slower.count == 1 else 's'}{doubt}"]
 
     def _samples(self, combination: Combination) -> int:
         """Return the number of samples of one trial."""
@@ -214,11 +228,12 @@ class Analysis:
         laps = self._store.laps(combination)
         if not len(laps):
             return None
-        points, scene = (Seconds(_spread(laps[:, column]), _spread(laps[:, column + 1])) for column in (0, 2))
-        total = Seconds(_spread(laps[:, 0] + laps[:, 2]), _spread(laps[:, 1] + laps[:, 3]))
-        half = 1.57 * (total.cpu.upper - total.cpu.lower) / math.sqrt(len(laps))
-        seconds = Interval(total.cpu.median, total.cpu.median - half, total.cpu.median + half)
-        return Times(points, scene, total, *self._store.setup(combination), len(laps), len(laps), seconds)
+        points, scene = (Seconds(_spread(laps[:, column]), _spread(laps[:, column + 1])) for column in (1, 3))
+        total = Seconds(_spread(laps[:, 1] + laps[:, 3]), _spread(laps[:, 2] + laps[:, 4]))
+        rounds = np.unique(laps[:, 0]).size
+        return Times(
+            points, scene, total, *self._store.setup(combination), len(laps), rounds, self._seconds[combination]
+        )
 
 
 def _floor(reference: Reference) -> float:

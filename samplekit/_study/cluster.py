@@ -10,7 +10,7 @@ from samplekit._provenance import versions
 from samplekit._study.trials import Array, carry_out
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterable, Sequence
 
     from samplekit._study.jobs import Job
     from samplekit._study.processes import JobResults
@@ -51,15 +51,15 @@ def count_threads(client: Any) -> int:
     return sum(int(worker["nthreads"]) for worker in workers) or 1
 
 
-def on_cluster(client: Any, jobs: Sequence[Job], tick: Callable[[int], None]) -> JobResults:
+def on_cluster(client: Any, parts: Iterable[Sequence[Job]], tick: Callable[[int], None]) -> JobResults:
     """Carry out jobs, and yield each with its sums in the order in which they end.
 
     If a worker dies, other workers repeat its jobs.
 
     Parameters
     ----------
-    client, jobs
-        What :func:`connect` returned, and the jobs to carry out.
+    client, parts
+        What :func:`connect` returned, and the jobs to carry out, part after part.
     tick
         Called with the number of samples of each job that ends.
 
@@ -68,6 +68,11 @@ def on_cluster(client: Any, jobs: Sequence[Job], tick: Callable[[int], None]) ->
     SamplekitError
         A job fails, a worker has other versions, or workers keep dying of a job.
     """
+    for jobs in parts:
+        yield from _on_cluster(client, jobs, tick)
+
+
+def _on_cluster(client: Any, jobs: Sequence[Job], tick: Callable[[int], None]) -> JobResults:
     from distributed import KilledWorker, as_completed
 
     expected = versions()

@@ -15,20 +15,20 @@ from samplekit._study.trials import Array, carry_out
 from samplekit._threads import as_completed
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Generator, Sequence
+    from collections.abc import Callable, Generator, Iterable, Sequence
 
     from samplekit._study.jobs import Job
 
     JobResults = Generator[tuple[Job, Array], None, None]
 
 
-def in_processes(jobs: Sequence[Job], processes: int, tick: Callable[[int], None]) -> JobResults:
+def in_processes(parts: Iterable[Sequence[Job]], processes: int, tick: Callable[[int], None]) -> JobResults:
     """Carry out jobs in other processes, and yield each with its sums in the order in which they end.
 
     Parameters
     ----------
-    jobs, processes
-        The jobs to carry out, and the number of processes.
+    parts, processes
+        The jobs to carry out, part after part, and the number of processes.
     tick
         Called with the number of samples of each job that ends.
 
@@ -40,9 +40,10 @@ def in_processes(jobs: Sequence[Job], processes: int, tick: Callable[[int], None
     # A fork of a process that has written images hangs.
     pool = ProcessPoolExecutor(processes, multiprocessing.get_context("spawn"), _begin_worker)
     try:
-        for job, sums in as_completed(jobs, processes, lambda job: pool.submit(carry_out, job)):
-            tick(job.samples)
-            yield job, sums
+        for jobs in parts:
+            for job, sums in as_completed(jobs, processes, lambda job: pool.submit(carry_out, job)):
+                tick(job.samples)
+                yield job, sums
     except BrokenProcessPool:
         raise SamplekitError(
             "a worker process was ended from outside (out of memory?): with --output, --resume continues from there"

@@ -115,7 +115,8 @@ class ExecutionOptions:
     times
         Whether run times are measured.
     budget
-        Seconds for measuring run times; None: a tenth of the time that the errors take, and at least one second.
+        Seconds of the processor for measuring run times; None: a tenth of the time that the errors take, and at least
+        one second.
     cost
         Extra cost per sample, in nanoseconds, as if a renderer shaded it.
     target

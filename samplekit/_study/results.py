@@ -23,7 +23,7 @@ LEVEL = 0.95
 
 @dataclass(frozen=True)
 class Interval:
-    """An estimate with its 95 % confidence interval.
+    """An estimate with its 95 % confidence interval: of errors over trials, of times over rounds.
 
     Attributes
     ----------
@@ -68,6 +68,11 @@ class Times:
         Seconds spent once, before the first sample: making tables and banks of sets, compiling kernels or loading them.
     laps
         Number of repetitions; those of different combinations take turns.
+    rounds
+        Number of rounds, apart in time, in which the laps were taken.
+    seconds
+        Processor seconds of points and scene together, for comparing the rows of a study: what slowed all rows of a
+        round alike is taken out. The interval is over rounds, and there is none from fewer than six.
     """
 
     points: Seconds
@@ -149,7 +154,7 @@ class Row:
     times
         Measured times; None if none were measured.
     time
-        Seconds of a trial that the answers use: the processor time of ``times``, plus the extra cost per sample. None
+        Seconds of a trial that the answers use: the estimate of ``times.seconds``, plus the extra cost per sample. None
         without ``times``.
     fitted, left_out
         Whether the fit uses this row, and why not.

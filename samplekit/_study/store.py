@@ -27,13 +27,13 @@ if TYPE_CHECKING:
     from samplekit._study.jobs import Job
     from samplekit._study.timing import Lap
 
-FORMAT = 2
+FORMAT = 3
 NAME = "study.sqlite"
 _TABLES = """
 CREATE TABLE study (format INTEGER, request TEXT, versions TEXT, digest BLOB);
 CREATE TABLE sums (scene TEXT, sampler TEXT, count INTEGER, first INTEGER, last INTEGER, batches BLOB, digest BLOB,
   PRIMARY KEY (scene, sampler, count, first));
-CREATE TABLE laps (machine TEXT, scene TEXT, sampler TEXT, count INTEGER,
+CREATE TABLE laps (machine TEXT, scene TEXT, sampler TEXT, count INTEGER, round INTEGER,
   points_cpu REAL, points_wall REAL, scene_cpu REAL, scene_wall REAL, digest BLOB);
 CREATE TABLE setups (machine TEXT, scene TEXT, sampler TEXT, count INTEGER, cpu REAL, wall REAL, digest BLOB,
   PRIMARY KEY (machine, scene, sampler, count))
@@ -143,16 +143,16 @@ class Store:
         batches = b"".join(row[5] for row in self._select("sums", "first", **_key(combination)))
         return np.frombuffer(batches, np.float64).reshape(-1, COLUMNS)
 
-    def add_laps(self, laps: Sequence[tuple[Combination, Lap]]) -> None:
-        """Keep the seconds of laps."""
+    def add_laps(self, number: int, laps: Sequence[tuple[Combination, Lap]]) -> None:
+        """Keep the seconds of laps of the round with this number."""
         with self._transaction():
             for combination, lap in laps:
-                self._insert("INSERT INTO laps", (self._machine, *_key(combination).values(), *map(float, lap)))
+                self._insert("INSERT INTO laps", (self._machine, *_key(combination).values(), number, *map(float, lap)))
 
     def laps(self, combination: Combination) -> Array:
-        """Return the laps float64[L, 4] of a combination on this kind of machine."""
+        """Return the laps of a combination on this kind of machine: float64[L, 5], number of the round and seconds."""
         rows = self._select("laps", machine=self._machine, **_key(combination))
-        return np.array([row[4:] for row in rows], np.float64).reshape(-1, 4)
+        return np.array([row[4:] for row in rows], np.float64).reshape(-1, 5)
 
     def add_setup(self, combination: Combination, cpu: float, wall: float) -> None:
         """Keep the seconds before the first sample, unless the store has them from an earlier run."""

@@ -1,10 +1,12 @@
-"""A study from its request to its results: set-up, laps, jobs, more laps, analysis, answers."""
+"""A study from its request to its results: set-up, jobs with rounds of laps between them, analysis, answers."""
 
 from __future__ import annotations
 
 import contextlib
+import itertools
 import time
 from dataclasses import asdict, replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 from samplekit._errors import UsageError
@@ -21,15 +23,26 @@ from samplekit._study.ranking import rank
 from samplekit._study.results import Results
 from samplekit._study.sentences import statements
 from samplekit._study.store import Store
-from samplekit._study.timing import ESTIMATE_SECONDS, LAP_SECONDS, TimingRun, run_laps, set_up
+from samplekit._study.timing import (
+    ESTIMATE_SECONDS,
+    LAP_SECONDS,
+    ROUNDS,
+    TimingRun,
+    falling,
+    run_round,
+    set_up,
+    typical_seconds,
+)
 from samplekit._study.trials import carry_out
 from samplekit._threads import check_threads, on_threads
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable, Iterator, Sequence
     from pathlib import Path
 
     from samplekit._study.combinations import Combination
+    from samplekit._study.jobs import Job
+    from samplekit._study.processes import JobResults
     from samplekit._study.request import ExecutionOptions, Request
     from samplekit._study.resources import Resources
 
@@ -37,6 +50,8 @@ if TYPE_CHECKING:
 
 _BUDGET_SHARE, _SMALLEST_BUDGET = 0.1, 1.0
 """Default budget for laps: this share of the time that the errors took, and at least so many seconds."""
+_JOBS_BETWEEN = 8
+"""Least number of jobs for each worker between two pauses: workers wait for each other at a pause."""
 
 
 class Study:
@@ -111,22 +126,38 @@ class Study:
         for number, timing in enumerate(timings):
             seconds[timing.combination] = timing.warm_up(LAP_SECONDS if self._options.times else ESTIMATE_SECONDS)
             progress("warming up", number + 1, len(timings))
+        numbers = itertools.count(1 + max(int(self._store.laps(each)[:, 0].max(initial=0.0)) for each in seconds))
 
-        def time_laps(seconds: float) -> None:
-            run_laps(timings, seconds, self._store, lambda done, total: progress("measuring run times", done, total))
-
-        if self._options.times:
-            time_laps(0.0)
-        began = time.perf_counter()
-        self._compute_errors(seconds, progress)
-        if self._options.times:
+        def measure(timings: Sequence[TimingRun], rounds: int, spent: float = 0.0) -> None:
+            """Run rounds of laps after the errors took so many seconds; some combinations get a part of the budget."""
             budget = self._options.budget
             if budget is None:
-                budget = max(_BUDGET_SHARE * (time.perf_counter() - began), _SMALLEST_BUDGET)
-            time_laps(budget)
+                budget = max(_BUDGET_SHARE * spent * ROUNDS / rounds, _SMALLEST_BUDGET)
+            share = budget / ROUNDS * len(timings) / len(self._combinations)
+            for number in itertools.islice(numbers, rounds):
+                run_round(timings, number, share, self._store, partial(progress, "measuring run times"))
 
-    def _compute_errors(self, seconds: dict[Combination, float], progress: Progress) -> None:
-        """Carry out the jobs that are left; ``seconds`` are those of a trial."""
+        self._compute_errors(seconds, progress, partial(measure, timings))
+        if self._options.times:
+            found = falling(typical_seconds({each: self._store.laps(each) for each in self._combinations}))
+            again = [timing for timing in timings if timing.combination in {*found, *found.values()}]
+            if again:
+                measure(again, ROUNDS)
+
+    def _compute_errors(
+        self, seconds: dict[Combination, float], progress: Progress, measure: Callable[[int, float], None]
+    ) -> None:
+        """Carry out the jobs that are left.
+
+        Parameters
+        ----------
+        seconds
+            Approximate seconds of a trial of each combination.
+        progress
+            As in :meth:`run`.
+        measure
+            Measures run times: called with a number of rounds, and the seconds that the errors took since the last.
+        """
         workers = self._options.processes
         if self._cluster is not None:
             workers = count_threads(self._cluster)
@@ -144,16 +175,37 @@ class Study:
             done += samples
             progress("computing errors", min(done, total), total)
 
+        parts = self._parts(jobs, workers, measure)
         if self._cluster is not None:
-            found = on_cluster(self._cluster, jobs, tick)
+            found = on_cluster(self._cluster, parts, tick)
         elif self._options.processes > 1:
-            found = in_processes(jobs, workers, tick)
+            found = in_processes(parts, workers, tick)
         else:
-            found = on_threads(lambda job, tick: carry_out(job, self._resources, tick), jobs, workers, tick)
+            found = self._on_threads(parts, workers, tick)
         # Closing stops the workers, whatever happens here.
         with contextlib.closing(found):
             for job, sums in found:
                 self._store.add(job, sums)
+
+    def _parts(
+        self, jobs: Sequence[Job], workers: int, measure: Callable[[int, float], None]
+    ) -> Iterator[Sequence[Job]]:
+        """Yield the jobs in parts, and measure run times before, between and after them, while no worker is busy."""
+        if not self._options.times:
+            yield jobs
+            return
+        parts = max(1, min(ROUNDS - 1, len(jobs) // (_JOBS_BETWEEN * workers)))
+        spent = 0.0
+        for part in range(parts + 1):
+            measure(len(range(ROUNDS)[part :: parts + 1]), spent)
+            if part < parts:
+                began = time.perf_counter()
+                yield jobs[len(jobs) * part // parts : len(jobs) * (part + 1) // parts]
+                spent = time.perf_counter() - began
+
+    def _on_threads(self, parts: Iterable[Sequence[Job]], threads: int, tick: Callable[[int], None]) -> JobResults:
+        for jobs in parts:
+            yield from on_threads(lambda job, tick: carry_out(job, self._resources, tick), jobs, threads, tick)
 
     def results(self) -> Results:
         """Return the results of everything that is done, also after an interrupt."""

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shlex
 import signal
 import subprocess
@@ -170,6 +171,15 @@ def test_full_samples_all_pixels_for_the_same_image(command, tmp_path):
     assert {name: some[name] for name in ("mse", "bias")} == {name: every[name] for name in ("mse", "bias")}
     for name in ("image", "error"):
         assert np.array_equal(read_parts(Path("some.exr")).parts[name], read_parts(Path("every.exr")).parts[name])
+
+
+def test_sums_over_threads_are_called_so(command):
+    many = command("render", *SMALL, "--threads", "2")
+    assert re.search(
+        r"points [\d.]+ and scene [\d.]+ \(each summed over 2 threads\), reference [\d.]+, total", many.out
+    )
+    alone = command("render", *SMALL, "--threads", "1")
+    assert re.search(r"setup [\d.]+, points [\d.]+ and scene [\d.]+, reference [\d.]+, total", alone.out)
 
 
 def test_explanations_go_to_standard_error(command):

@@ -238,6 +238,24 @@ def test_what_comes_with_an_image():
     assert rendered.plan.pixels.window == (3, 4, 10, 5)
 
 
+class Compiled(samplekit.Scene):
+    """A scene whose first call takes long, as if it compiled a kernel."""
+
+    seconds = 0.2
+
+    def value(self, points):
+        time.sleep(self.seconds)
+        self.seconds = 0.0
+        return points[0]
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_what_the_first_call_takes_is_set_up(threads):
+    made = samplekit.render(a_scene("toy", "Compiled"), "random", 1, size=(4, 3), threads=threads, error=False)
+    assert made.seconds["setup"] >= 0.2 > made.seconds["points"] + made.seconds["scene"]
+    assert made.threads == made.as_json()["threads"] == threads
+
+
 def test_the_reference_is_left_out_with_all_that_needs_it():
     scene = a_scene("toy", "Secret")
     rendered = samplekit.render(scene, "random", 4, size=(4, 3), error=False)

@@ -55,9 +55,10 @@ def make_row(
     pixels = size[0] * size[1]
     seconds = law(sampler)[1] * count * pixels
     spent = around(seconds, 0.02)
-    times = (
-        Times(clock(0.7 * seconds), clock(0.3 * seconds), clock(seconds), 0.02, 0.03, 7, 7, spent) if timed else None
-    )
+    times = None
+    if timed:
+        parts = clock(0.7 * seconds), clock(0.3 * seconds), clock(seconds)
+        times = Times(*parts, 0.02, 0.03, laps=18, rounds=9, seconds=spent)
     return Row(
         scene=scene,
         sampler=sampler,

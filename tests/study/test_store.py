@@ -72,7 +72,7 @@ def test_other_formats_and_other_files_are_refused(opened, tmp_path):
     with sqlite3.connect(tmp_path / NAME) as database:
         database.execute("UPDATE study SET format = 0")
     database.close()
-    with pytest.raises(UsageError, match="version 0, this samplekit continues version 2"):
+    with pytest.raises(UsageError, match="version 0, this samplekit continues version 3"):
         opened()
     (tmp_path / NAME).write_bytes(b"no database at all " * 100)
     with pytest.raises(UsageError, match="choose another folder"):
@@ -134,10 +134,10 @@ def test_times_of_another_kind_of_machine_do_not_count(opened):
     (combination,), _ = list_combinations(REQUEST, resources)
     slow = opened(machine="slow")
     slow.add(Job("disk", "random", (4,), 0, 8, 1, (1, 1), 0), np.ones((1, 8, COLUMNS)))
-    slow.add_laps([(combination, (9.0, 9.0, 9.0, 9.0))] * 5)
+    slow.add_laps(1, [(combination, (9.0, 9.0, 9.0, 9.0))] * 5)
     slow.close()
     fast = opened(machine="fast")
-    fast.add_laps([(combination, (1.0, 2.0, 3.0, 4.0))] * 5)
+    fast.add_laps(1, [(combination, (1.0, 2.0, 3.0, 4.0))] * 5)
     (row,) = Analysis(REQUEST, ExecutionOptions(cost=10.0), [combination], fast, resources).rows()
     assert (row.times.points.cpu.median, row.times.total.wall.upper, row.times.laps) == (1.0, 6.0, 5)
     assert row.time.estimate == pytest.approx(4.0 + 4 * 10e-9)
