@@ -26,7 +26,7 @@ from statistics import NormalDist
 FAMILY_RATE = 1e-3
 SAMPLERS_IN_A_FAMILY = 64
 SAMPLER_RATE = FAMILY_RATE / SAMPLERS_IN_A_FAMILY
-STATISTICAL_CHECKS = 5
+STATISTICAL_CHECKS = 7
 CHECK_RATE = SAMPLER_RATE / STATISTICAL_CHECKS
 
 
@@ -55,3 +55,16 @@ def chi_square_threshold(tests: int, freedom: int) -> float:
     from scipy.special import chdtri
 
     return float(chdtri(freedom, CHECK_RATE / tests))
+
+
+def poisson_threshold(expected: float, tests: int) -> int:
+    """Return the least number of coincidences, at least 2, that occurs with at most the rate of one of ``tests`` tests.
+
+    ``expected`` is the mean number of coincidences.
+    """
+    from scipy.special import pdtrc
+
+    limit = 2
+    while pdtrc(limit - 1, expected) > CHECK_RATE / tests:
+        limit += 1 + limit // 64
+    return limit
