@@ -139,10 +139,10 @@ def check_slices(subject: SamplerSubject) -> None:
     """Points start to stop are that slice of the whole set."""
     dims = subject.dims(3)
     realizations = Realizations.of_trials(0, 3, 0)
-    more = () if subject.quick else (1500, 2100)
-    if subject.sampler.streams and not subject.quick:
-        more += (2**13 + 1, 2**16 + 1, 2**17)
-    for count in subject.counts(7, 64, 100, *more, dims=dims):
+    wanted = [7, 64, 100]
+    if not subject.quick:
+        wanted += [1500, 2100, *([2**13 + 1, 2**16 + 1, 2**17] if subject.sampler.streams else [])]
+    for count in subject.counts(*wanted, dims=dims):
         whole = subject.fill(realizations, count, dims)
         for start, stop in _slices(count, many=subject.sampler.streams):
             part = subject.fill(realizations, count, dims, start, stop - start)

@@ -1,4 +1,4 @@
-"""Across dimensions: no two dimensions are correlated, above all no padded ones, and no three or four are tied together.
+"""Across dimensions: no two dimensions are correlated, above all no padded ones; no three or four are tied together.
 
 The sets are so large that true sequences have converged: with 256 points, Halton's dimensions 6 and 7 (bases 17 and 19)
 have correlation 0.09, which belongs to the sequence and falls as 1/N; the correlation of wrongly padded ones stays.
@@ -107,7 +107,7 @@ def _largest_share(values: Array) -> float:
     low = [*range(1, side // 4 + 1), *range(-(side // 4), 0)]
     fourier = np.fft.fftn(held, axes=tuple(range(1, dims + 1)))[np.ix_(range(sets), *[low] * dims)]
     found = (fourier, walsh(held.astype(float))[(slice(None), *[slice(1, None)] * dims)])
-    return max(float((np.abs(each) ** 2).mean(axis=0).max()) for each in found) / count**2
+    return max(float((np.abs(each) ** 2).mean(axis=0).max()) for each in found) / float(count) ** 2
 
 
 def pair_correlations(values: Array) -> Array:

@@ -1,7 +1,7 @@
 """Joint uniformity: intervals of one dimension, and cells of two to four, hold their shares of all points.
 
-All points of many sets are counted in cells. Points of one set depend on each other, so sets are put together in groups,
-and what is judged are means over groups, which are independent. Every quantity is a linear function of the counts whose
+All points of many sets are counted in cells. Points of one set depend on each other, so sets are put together in
+groups, which are independent, and means over groups are judged. Every quantity is a linear function of the counts whose
 mean is zero for uniform points: counts of intervals from one half to 1/1024, counts of cells, and Fourier and Walsh
 coefficients of the counts, which see a bias of three dimensions that no pair of them has.
 """
@@ -9,7 +9,8 @@ coefficients of the counts, which see a bias of three dimensions that no pair of
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterator
+import math
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +28,8 @@ _POINTS, _QUICK_POINTS = 1 << 23, 1 << 19
 _GROUPS, _QUICK_GROUPS = 512, 128
 _TESTS = 500_000
 """More than the number of tests in all: 34 000 for each of nine counts in four dimensions, 116 000 in six."""
+_PER_CELL = 512
+"""Points that a cell holds at least: so many are nearly normal, and no cell is empty by chance."""
 _ROUNDING = 1e-9
 
 
@@ -54,38 +57,53 @@ def _judge(subject: SamplerSubject, dims: int, counts: list[int], what: str) -> 
     counts = counts[:most]
     each = max(1, most // len(counts)) * largest
     totals: dict[tuple[int, ...], list[NDArray[np.int64]]] = {}
+    sets = [max(1, min(wanted, each) // count) for count in counts]
+    sizes = np.multiply(sets, counts)
+    total = int(sizes.sum())
+    sides = _affordable_sides(total, dims)
     first = 0
-    sizes = []
-    for count in counts:
-        sets = max(1, min(wanted, each) // count)
-        points = subject.fill(subject.independent(first, first + sets), count, dims)
-        first, size = first + sets, sets * count
-        sizes.append(size)
-        for axes, held in held_in_cells(points.transpose(1, 0, 2).reshape(dims, size)):
+    for count, number in zip(counts, sets, strict=True):
+        points = subject.fill(subject.independent(first, first + number), count, dims)
+        first += number
+        for axes, held in held_in_cells(points.transpose(1, 0, 2).reshape(dims, -1), sides):
             totals.setdefault(axes, []).append(held)
     threshold = student_threshold(_TESTS, len(counts) - 1)
-    for axes, held in totals.items():
-        cells = SIDES[len(axes)] ** len(axes)
-        excess = (np.array(held) / np.array(sizes)[:, None] * cells - 1.0).reshape(-1, *[SIDES[len(axes)]] * len(axes))
-        for name, values in _functionals(excess):
-            mean = values.mean(axis=0)
-            error = values.std(axis=0, ddof=1) / np.sqrt(len(values))
+    for axes, counted in totals.items():
+        side, number = sides[len(axes)], len(axes)
+        excess = (np.array(counted) / sizes[:, None] * side**number - 1.0).reshape(-1, *[side] * number)
+        for name, shape, values in _functionals(excess):
+            flat = values.reshape(len(values), -1)
+            mean, error = flat.mean(axis=0), flat.std(axis=0, ddof=1) / math.sqrt(len(values))
             # A quantity that is the same in every group is exact, up to rounding.
             wrong = np.abs(mean) > np.maximum(threshold * error, _ROUNDING)
             if wrong.any():
-                worst = int(np.argmax(np.where(wrong, np.abs(mean) / np.maximum(error, _ROUNDING), 0.0)))
+                worst = int(np.argmax(wrong * np.abs(mean) / np.maximum(error, _ROUNDING)))
+                place = ", ".join(str(int(each)) for each in np.unravel_index(worst, shape))
+                grid = " x ".join(map(str, shape))
                 raise CheckFailed(
-                    f"{name(worst)} of {_dimensions(axes)} is {mean[worst]:.3g} relative to a uniform density, expected 0"
-                    f" within {threshold * error[worst]:.2g} ({sum(sizes)} points in {what})",
+                    f"{name} ({place}) of {grid} of {_dimensions(axes)} is off by {mean[worst]:.3g}, relative to a"
+                    f" uniform density: at most {threshold * error[worst]:.2g} expected of {total} points in {what}",
                     subject.request(counts[0], dims, axes=axes),
                 )
 
 
-def held_in_cells(points: Array) -> Iterator[tuple[tuple[int, ...], NDArray[np.int64]]]:
-    """Yield the axes, and the numbers of the points float64[D, M] in the cells, of up to four dimensions together."""
-    finest = SIDES[1]
+def _affordable_sides(points: int, dims: int) -> dict[int, int]:
+    """Return the cells along each axis by the number of dimensions: so many that each holds enough points."""
+    sides = {}
+    for number, side in SIDES.items():
+        cells = side
+        while cells > 1 and points < _PER_CELL * cells**number:
+            cells //= 2
+        if cells > 1 and number <= dims:
+            sides[number] = cells
+    return sides
+
+
+def held_in_cells(points: Array, sides: Mapping[int, int]) -> Iterator[tuple[tuple[int, ...], NDArray[np.int64]]]:
+    """Yield the axes, and the numbers of the points float64[D, M] in the cells, of one to four dimensions together."""
+    finest = max(sides.values(), default=1)
     cells = np.clip((points * finest).astype(np.int64), 0, finest - 1)
-    for number, side in list(SIDES.items())[: len(points)]:
+    for number, side in sides.items():
         coarse = cells // (finest // side)
         for axes in itertools.combinations(range(len(points)), number):
             place = coarse[axes[0]]
@@ -94,23 +112,19 @@ def held_in_cells(points: Array) -> Iterator[tuple[tuple[int, ...], NDArray[np.i
             yield axes, np.bincount(place, minlength=side**number)
 
 
-def _functionals(excess: Array) -> Iterator[tuple[Callable[[int], str], Array]]:
-    """Yield for each kind of quantity how to name the i-th one, and its values float64[G, number]."""
+def _functionals(excess: Array) -> Iterator[tuple[str, tuple[int, ...], Array]]:
+    """Yield each kind of quantity: its name, the shape of its numbers, and its values float64[G, ...]."""
     groups, *sides = excess.shape
-    side = sides[0]
+    cells = int(np.prod(sides))
     if len(sides) == 1:
-        for level in range(1, side.bit_length()):
-            cells = 2**level
-            yield lambda i, n=cells: f"the density of [{i}/{n}, {i + 1}/{n})", excess.reshape(groups, cells, -1).mean(2)
+        for level in range(1, cells.bit_length()):
+            yield "density of interval", (2**level,), excess.reshape(groups, 2**level, -1).mean(axis=2)
     else:
-        flat = excess.reshape(groups, -1)
-        yield lambda i: f"the density of cell {_place(i, sides)} of {' x '.join(map(str, sides))}", flat
-    coefficients = np.fft.rfftn(excess, axes=tuple(range(1, excess.ndim))) / np.prod(sides)
-    shape = coefficients.shape[1:]
-    for part, values in (("cosine", coefficients.real), ("sine", coefficients.imag)):
-        yield lambda i, p=part: f"the {p} coefficient of frequency {_place(i, shape)}", values.reshape(groups, -1)
-    if len(sides) > 1:
-        yield lambda i: f"the Walsh coefficient {_place(i, sides)}", walsh(excess).reshape(groups, -1) / np.prod(sides)
+        yield "density of cell", tuple(sides), excess
+        yield "Walsh coefficient", tuple(sides), walsh(excess) / cells
+    coefficients = np.fft.rfftn(excess, axes=tuple(range(1, excess.ndim))) / cells
+    yield "cosine coefficient", coefficients.shape[1:], coefficients.real
+    yield "sine coefficient", coefficients.shape[1:], coefficients.imag
 
 
 def walsh(held: Array) -> Array:
@@ -121,10 +135,6 @@ def walsh(held: Array) -> Array:
     for axis in range(1, held.ndim):
         held = np.moveaxis(np.tensordot(held, matrix, (axis, 0)), -1, axis)
     return held
-
-
-def _place(i: int, shape: list[int] | tuple[int, ...]) -> str:
-    return str(tuple(int(each) for each in np.unravel_index(i, tuple(shape))))
 
 
 def _dimensions(axes: tuple[int, ...]) -> str:

@@ -21,7 +21,7 @@ _COORDINATES = (0, 1, 255, 256, 2**16 + 1, 2**31 - 1, 2**32 - 1)
 
 @conformance_check("large-index", 16)
 def check_large_index(subject: SamplerSubject) -> None:
-    """Points at indices about every power of two from 2^11 to 2^40, as far as declared, are right and repeat no small ones."""
+    """Points about the indices 2^11, 2^12, ... 2^40, as far as declared, are right and repeat no small ones."""
     if not subject.sampler.streams:
         raise NotApplicable("it makes sets as a whole: large indices are large sets")
     dims, most = subject.dims(2), subject.spec.largest_index + 1
@@ -55,7 +55,9 @@ def check_large_index(subject: SamplerSubject) -> None:
 def _judge_late_prefixes(subject: SamplerSubject, dims: int) -> None:
     """Raise unless a late part of a progressive sequence is the same in longer ones."""
     progressive = subject.spec.progressive
-    for place in _PLACES if progressive is not None else ():
+    if progressive is None:
+        return
+    for place in _PLACES:
         short = progressive.above(place, dims)
         long = None if short is None else progressive.above(2 * short - 1, dims)
         if short and long and subject.allows(short, dims) and subject.allows(long, dims):

@@ -60,7 +60,7 @@ class _Table(NamedTuple):
 
 @conformance_check("relations", 22)
 def check_relations(subject: SamplerSubject) -> None:
-    """No two seeds, pixels, dimensions, counts and numbers of dimensions have equal, shifted, mirrored or added points."""
+    """No seeds, pixels, dimensions, counts or numbers of dimensions have equal, shifted, mirrored or added points."""
     spec = subject.spec
     if not spec.randomized:
         raise NotApplicable("it is not declared randomised")
@@ -98,7 +98,7 @@ def _judge_whole_sets(subject: SamplerSubject, pixels: NDArray[np.int64], seeds:
     dims = subject.dims(2)
     (count,) = subject.counts(_COUNT, dims=dims)
     near = pixels[: _SIDE**2]
-    made = [subject.fill(Realizations.of_pixels(*near.T, seed), count, dims) for seed in seeds]
+    made = [subject.fill(Realizations.of_pixels(near[:, 0], near[:, 1], seed), count, dims) for seed in seeds]
     names = [(seed, int(x), int(y)) for seed in seeds for x, y in near]
     for first, second in repeated(np.concatenate(made)):
         (seed, x, y), (other, x2, y2) = names[first], names[second]
@@ -115,9 +115,7 @@ def _requests(subject: SamplerSubject) -> list[tuple[int, int]]:
     return sorted(found, key=lambda request: abs(request[0] - _COUNT))[: 4 if subject.quick else None]
 
 
-def _draw(
-    subject: SamplerSubject, pixels: NDArray[np.int64], seeds: tuple[int, ...]
-) -> tuple[_Table, list[Owner]]:
+def _draw(subject: SamplerSubject, pixels: NDArray[np.int64], seeds: tuple[int, ...]) -> tuple[_Table, list[Owner]]:
     """Return the table, and the seed and pixel of each owner."""
     requests = _requests(subject)
     count, dims = requests[0]
@@ -129,7 +127,7 @@ def _draw(
     for number, seed in enumerate(seeds):
         for place, (count, dims) in enumerate(requests if number < _FEW_SEEDS else requests[:2]):
             chosen = pixels[: many if number < _FEW_SEEDS and place == 0 else few]
-            values = subject.fill(Realizations.of_pixels(*chosen.T, seed), count, dims)
+            values = subject.fill(Realizations.of_pixels(chosen[:, 0], chosen[:, 1], seed), count, dims)
             # Pixels of a block that shares a sequence count as one: for other counts they may exchange their parts.
             blocks = chosen // (subject.spec.screen_block or 1) * (subject.spec.screen_block or 1)
             mine = np.array([owners.setdefault((seed, int(x), int(y)), len(owners)) for x, y in blocks])
@@ -178,12 +176,12 @@ def _judge_pairs(subject: SamplerSubject, table: _Table, owners: list[Owner], *,
     chance = words.size**2 / 2 * _resolution(table.words) * int(table.column[:, 1].max())
     if places.size >= poisson_threshold(chance, _TESTS):
         one, two = (int(rows[each[places[0]]]) for each in (first, second))
-        relation = "mirrors" if mirrored else "equals"
-        _fail(subject, f"{_name(table, owners, one)} {relation} {_name(table, owners, two)}", places.size, table, owners, one)
+        text = f"{_name(table, owners, one)} {'mirrors' if mirrored else 'equals'} {_name(table, owners, two)}"
+        _fail(subject, text, places.size, table, owners, one)
 
 
 def _judge_differences(subject: SamplerSubject) -> None:
-    """Raise if two differences of coordinates are equal, or one coordinate is the sum of two, more often than by chance.
+    """Raise if two differences of coordinates are equal, or a coordinate is the sum of two, more often than by chance.
 
     Equal sums are equal differences: a + b = c + d is a - c = d - b.
     """
@@ -195,7 +193,7 @@ def _judge_differences(subject: SamplerSubject) -> None:
         owners: list[Owner] = []
         parts = []
         for seed in range(_FEW_SEEDS):
-            values = subject.fill(Realizations.of_pixels(*pixels.T, seed), count, dims)[:, :_FEW]
+            values = subject.fill(Realizations.of_pixels(pixels[:, 0], pixels[:, 1], seed), count, dims)[:, :_FEW]
             mine = np.arange(len(pixels)) + len(owners)
             owners += [(seed, int(x), int(y)) for x, y in pixels]
             parts.append(_rows(values, mine, count, dims, 0))
@@ -251,7 +249,8 @@ def _judge_sums(subject: SamplerSubject, table: _Table, owners: list[Owner]) -> 
 def _unsigned(differences: Words) -> Words:
     """Return differences modulo 1, the smaller of each and its opposite."""
     wrapped = differences & _MASK
-    return np.minimum(wrapped, -wrapped & _MASK)
+    smaller: Words = np.minimum(wrapped, -wrapped & _MASK)
+    return smaller
 
 
 def _name(table: _Table, owners: list[Owner], row: int) -> str:

@@ -161,8 +161,6 @@ class LastColumnOfManyPixels(Mutant):
         late = realizations.x % 200 == 199
         if late.any():
             before = np.empty_like(out)
-            shifted = type(realizations).of_pixels(
-                np.maximum(realizations.x - 1, 0), realizations.y, realizations.seed
-            )
+            shifted = type(realizations).of_pixels(np.maximum(realizations.x - 1, 0), realizations.y, realizations.seed)
             self.inner.fill(before, shifted, count, start)
             out[late] = before[late]
