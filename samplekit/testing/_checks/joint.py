@@ -28,8 +28,8 @@ _POINTS, _QUICK_POINTS = 1 << 23, 1 << 19
 _GROUPS, _QUICK_GROUPS = 512, 128
 _TESTS = 500_000
 """More than the number of tests in all: 34 000 for each of nine counts in four dimensions, 116 000 in six."""
-_PER_CELL = 512
-"""Points that a cell holds at least: so many are nearly normal, and no cell is empty by chance."""
+_PER_CELL, _SAMPLES = 512, 16
+"""Sets that have a point in a cell, at least: counts of so many are nearly normal. It is found from a few sets."""
 _ROUNDING = 1e-9
 
 
@@ -39,28 +39,28 @@ def check_joint_uniformity(subject: SamplerSubject) -> None:
     if not (subject.spec.randomized and subject.spec.unbiased):
         raise NotApplicable("it is not declared random and unbiased")
     groups = _QUICK_GROUPS if subject.quick else _GROUPS
-    dims = subject.most_dims(_DIMS)
-    for count in subject.counts(*(_QUICK_COUNTS if subject.quick else _COUNTS), dims=dims):
-        _judge(subject, dims, [count] * groups, f"sets of {count} points")
     if subject.sampler.streams:
         dims = subject.most_dims(_DIMS if subject.quick else _MIXED_DIMS)
         exponents = np.random.default_rng(12).random(groups)
-        counts = [subject.counts(int(_MOST_MIXED**exponent), dims=dims)[0] for exponent in exponents]
-        _judge(subject, dims, counts, f"sets of {min(counts)} to {max(counts)} points")
+        mixed = [subject.counts(int(_MOST_MIXED**exponent), dims=dims)[0] for exponent in exponents]
+        _judge(subject, dims, mixed, f"sets of {min(mixed)} to {max(mixed)} points")
+    dims = subject.most_dims(_DIMS)
+    for count in subject.counts(*(_QUICK_COUNTS if subject.quick else _COUNTS), dims=dims):
+        _judge(subject, dims, [count] * groups, f"sets of {count} points")
 
 
 def _judge(subject: SamplerSubject, dims: int, counts: list[int], what: str) -> None:
     """Judge groups of sets, one of each of the counts."""
     wanted = (_QUICK_POINTS if subject.quick else _POINTS) // len(counts)
     largest = max(counts)
-    most = subject.affordable(max(len(counts), len(counts) * wanted // largest), largest, dims, share=4.0)
+    most = subject.affordable(max(len(counts), len(counts) * wanted // largest), largest, dims, share=2.0)
     counts = counts[:most]
     each = max(1, most // len(counts)) * largest
     totals: dict[tuple[int, ...], list[NDArray[np.int64]]] = {}
     sets = [max(1, min(wanted, each) // count) for count in counts]
     sizes = np.multiply(sets, counts)
     total = int(sizes.sum())
-    sides = _affordable_sides(total, dims)
+    sides = _judged_sides(subject, counts, sets, dims)
     first = 0
     for count, number in zip(counts, sets, strict=True):
         points = subject.fill(subject.independent(first, first + number), count, dims)
@@ -87,16 +87,33 @@ def _judge(subject: SamplerSubject, dims: int, counts: list[int], what: str) -> 
                 )
 
 
-def _affordable_sides(points: int, dims: int) -> dict[int, int]:
-    """Return the cells along each axis by the number of dimensions: so many that each holds enough points."""
+def _judged_sides(subject: SamplerSubject, counts: list[int], sets: list[int], dims: int) -> dict[int, int]:
+    """Return the cells along each axis by the number of dimensions: as many as leave enough sets for each cell.
+
+    Many points of a set may share a coordinate, or lie in few cells, so points are no measure of what is known.
+    """
+    chosen = range(0, len(counts), -(-len(counts) // _SAMPLES))
+    sample = [(subject.fill(subject.independent(i, i + 1), counts[i], dims)[0], sets[i]) for i in chosen]
     sides = {}
-    for number, side in SIDES.items():
-        cells = side
-        while cells > 1 and points < _PER_CELL * cells**number:
-            cells //= 2
-        if cells > 1 and number <= dims:
-            sides[number] = cells
+    for number, most in list(SIDES.items())[:dims]:
+        side = most
+        while side > 1 and _sets_in_a_cell(sample, number, side) * len(counts) < _PER_CELL * len(sample):
+            side //= 2
+        if side > 1:
+            sides[number] = side
     return sides
+
+
+def _sets_in_a_cell(sample: list[tuple[Array, int]], number: int, side: int) -> float:
+    """Return how many sets have a point in a cell on average, where each set of the sample stands for as many others.
+
+    The least over all choices of ``number`` dimensions.
+    """
+    totals: dict[tuple[int, ...], float] = {}
+    for points, sets in sample:
+        for axes, held in held_in_cells(points, {number: side}):
+            totals[axes] = totals.get(axes, 0.0) + sets * float((held > 0).mean())
+    return min(totals.values())
 
 
 def held_in_cells(points: Array, sides: Mapping[int, int]) -> Iterator[tuple[tuple[int, ...], NDArray[np.int64]]]:

@@ -55,7 +55,7 @@ def check_uniformity(subject: SamplerSubject) -> None:
     wanted = _PER_CELL * SIDE**2
     if spec.randomized:
         count = subject.counts(_COUNT, dims=dims)[0]
-        realizations = subject.affordable(wanted // (16 if subject.quick else 1), count, dims, share=2.0)
+        realizations = subject.affordable(wanted // (16 if subject.quick else 1), count, dims)
         points = _one_point_a_set(subject, realizations, count, dims)
     else:
         # Nothing is random: the set must be as uniform as random points are.
