@@ -81,8 +81,9 @@ def finds(family: Family, strength: float, key: int, *, quick: bool) -> bool:
     inner = subject.sampler
 
     def fill(out: Array, realizations: Realizations, count: int, start: int) -> None:
-        inner.fill(out, Realizations.of_pixels(realizations.x, realizations.y, realizations.seed ^ key), count, start)
-        family.spoil(out, realizations, strength)
+        other = Realizations.of_pixels(realizations.x, realizations.y, realizations.seed ^ key)
+        inner.fill(out, other, count, start)
+        family.spoil(out, other, strength)
 
     subject.sampler = SimpleNamespace(check=inner.check, prepare=inner.prepare, streams=inner.streams, fill=fill)
     check = next(each for each in SUITES["sampler"] if each.name == family.check)
