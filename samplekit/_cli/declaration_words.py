@@ -22,6 +22,15 @@ def short_dimensions(spec: SamplerSpec) -> str:
     return f"{least}" if most == least else f"{least}+" if most is None else f"{least}-{most}"
 
 
+def extensible(spec: SamplerSpec) -> str:
+    """State what happens to the points when there are more dimensions."""
+    if spec.dimensions[0] == spec.dimensions[1]:
+        return "no: the number of dimensions is fixed"
+    if spec.extensible_dims:
+        return "yes: the first dimensions stay when there are more"
+    return "no: another number of dimensions is another set"
+
+
 def counts(spec: SamplerSpec) -> str:
     """State which numbers of points there are, with the first of them where that is not obvious."""
     rule = spec.counts.describe()

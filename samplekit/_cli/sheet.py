@@ -51,6 +51,7 @@ def _sampler(spec: SamplerSpec) -> Rows:
         "dimensions": [words.dimensions(spec)],
         "points": [words.counts(spec)],
         "progressive": [words.progressive(spec)],
+        "extensible": [words.extensible(spec)],
         "random": [random],
         "unbiased": ["yes" if spec.unbiased else "no"],
         "largest index": [str(spec.largest_index)],

@@ -31,7 +31,11 @@ class SamplerSpec(Declaration):
         Which numbers of points it makes.
     progressive
         The lengths at which a prefix of a set is a set of its own, points(M)[:N] == points(N), and a good one:
-        ``AnyCount()`` or ``PowersOf(2)``, say. None: another number of points is another set.
+        ``AnyCount()`` or ``PowersOf(2)``, say. None: another number of points is another set. The number of dimensions
+        is the same on both sides.
+    extensible_dims
+        Whether the first dimensions of a set stay the same, bit for bit, when more dimensions are asked for. False:
+        another number of dimensions is another set.
     randomized
         Whether another seed, and another realisation, gives other points.
     unbiased
@@ -63,6 +67,7 @@ class SamplerSpec(Declaration):
 
     dimensions: tuple[int, int | None] = field(default=(1, None), kw_only=True)
     progressive: Counts | None = field(default=None, kw_only=True)
+    extensible_dims: bool = field(default=True, kw_only=True)
     counts: Counts = field(default=AnyCount(), kw_only=True)
     randomized: bool = field(default=True, kw_only=True)
     unbiased: bool = field(default=True, kw_only=True)
@@ -81,6 +86,7 @@ class SamplerSpec(Declaration):
             dimensions=(_are_bounds, "(least, most) with 1 <= least <= most, or most None"),
             counts=(instance_of(Counts), "an object such as AnyCount() or PowersOf(2)"),
             progressive=(optional(instance_of(Counts)), "None or an object such as AnyCount() or PowersOf(2)"),
+            extensible_dims=(instance_of(bool), "True or False"),
             randomized=(instance_of(bool), "True or False"),
             unbiased=(instance_of(bool), "True or False"),
             period=(optional(integer(1)), "a positive integer or None"),

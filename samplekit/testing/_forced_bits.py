@@ -15,6 +15,7 @@ from samplekit._bases.realizations import Realizations
 from samplekit._configured.sampler import sampler as configured_sampler
 from samplekit._errors import SamplekitError
 from samplekit.testing._process import NoResultError, run_elsewhere
+from samplekit.testing._result import CheckFailed, NotApplicable
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -33,12 +34,16 @@ Matsumoto and Nishimura 1998, "Mersenne twister", section 2.1; tempering is one 
 def forced_extremes(subject: SamplerSubject) -> list[tuple[str, Array]]:
     """Make points with all random bits ones, and with all of them zeros.
 
-    A sampler that rejects points may loop for ever when its bits are constant: then the list is empty, and the subject
-    gets a note.
-
     Returns
     -------
     For each count and kind of bits, which bits were forced, as the end of a message, and the points float64[R, D, N].
+
+    Raises
+    ------
+    CheckFailed
+        The sampler raises, or ends the process, where its random bits are constant.
+    NotApplicable
+        It gives no answer: a sampler that rejects points may loop for ever when its bits are constant.
     """
     dims = subject.dims(2)
     counts = subject.counts(*_COUNTS, dims=dims)
@@ -47,7 +52,9 @@ def forced_extremes(subject: SamplerSubject) -> list[tuple[str, Array]]:
     try:
         (extremes,) = run_elsewhere(*request, seconds=_SECONDS, environment={"NUMBA_DISABLE_JIT": "1"})
     except NoResultError as error:
-        subject.note(f"not judged with forced random bits: {error}")
+        if error.problem.startswith("hangs"):
+            raise NotApplicable(f"passed otherwise, but could not be judged with forced random bits: {error}") from None
+        raise CheckFailed(f"with forced random bits: {error}") from None
     return extremes
 
 

@@ -1,4 +1,4 @@
-"""Thresholds of the five statistical checks: how often a check is wrong, and what it can see.
+"""Thresholds of the seven statistical checks: how often a check is wrong, and what it can see.
 
 Seeds are fixed, so a verdict is the same in every run: a false alarm is a property of a sampler, not of a run. The
 probability that a conforming sampler has one is at most ``SAMPLER_RATE``; a run over at most 64 samplers has a
@@ -11,11 +11,15 @@ noisy samplers the checks find smaller faults; in slow ones, which are judged on
 =================  ===================================================  =====================
 check              a run                                                a quick run
 =================  ===================================================  =====================
-uniformity         density wrong by 7 % rms over 31 x 31 cells          28 % rms
+uniformity         density wrong by 2.4 % rms over 31 x 31 cells        9.5 % rms
+joint-uniformity   density wrong by 0.3 % in a half of an axis          1.3 %
+                   density wrong by 2.4 % in 1/64 of an axis            10 %
 unbiasedness       a coordinate's mean wrong by 9.3e-4                  3.7e-3
 variance           1.35 times what is promised                          1.45 times
 across-pixels      correlation 0.02 of one pixel with another           0.075
 across-dimensions  correlation 0.019 of one dimension with another      0.037
+                   three dimensions tied in 7 points of 10              the same
+relations          any that holds exactly, at three places              the same
 =================  ===================================================  =====================
 """
 
@@ -26,7 +30,7 @@ from statistics import NormalDist
 FAMILY_RATE = 1e-3
 SAMPLERS_IN_A_FAMILY = 64
 SAMPLER_RATE = FAMILY_RATE / SAMPLERS_IN_A_FAMILY
-STATISTICAL_CHECKS = 5
+STATISTICAL_CHECKS = 7
 CHECK_RATE = SAMPLER_RATE / STATISTICAL_CHECKS
 
 
@@ -55,3 +59,16 @@ def chi_square_threshold(tests: int, freedom: int) -> float:
     from scipy.special import chdtri
 
     return float(chdtri(freedom, CHECK_RATE / tests))
+
+
+def poisson_threshold(expected: float, tests: int) -> int:
+    """Return the least number of coincidences, at least 2, that occurs with at most the rate of one of ``tests`` tests.
+
+    ``expected`` is the mean number of coincidences.
+    """
+    from scipy.special import pdtrc
+
+    limit = 2
+    while pdtrc(limit - 1, expected) > CHECK_RATE / tests:
+        limit += 1 + limit // 64
+    return limit

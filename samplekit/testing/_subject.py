@@ -22,21 +22,31 @@ from samplekit._configured.scene import scene as configured_scene
 from samplekit._errors import InvalidPointsError, SamplekitError, UsageError
 from samplekit._specs import SamplerSpec, SceneSpec
 from samplekit.testing._forced_bits import forced_extremes
-from samplekit.testing._result import CheckFailed, CounterExample, Kind
+from samplekit.testing._result import CheckFailed, CounterExample, Kind, NotApplicable
 
 Array = NDArray[np.float64]
 Recipe = str | SamplerSpec | SceneSpec
 """What a user writes (``"sobol+owen"``), or the declaration of a sampler or scene that is not installed."""
 
 _LARGEST_KEPT = 1 << 14
-_LARGEST_JUDGED = 1 << 17
+_LARGEST_JUDGED = 1 << 20
 _SMALL = 4096
 _MOST_GRID_DIMS = 12
 """A grid of two cells along each of this many dimensions has 4096 cells."""
-_LARGEST_COUNTS = ((0.02, _LARGEST_JUDGED), (0.2, 1 << 12), (1.0, 1 << 10))
+_LARGEST_COUNTS = ((5e-4, _LARGEST_JUDGED), (0.02, 1 << 17), (0.2, 1 << 12), (1.0, 1 << 10))
 """Seconds that 256 points take at most, and the largest set that is then judged; work may grow as the square."""
 _SECONDS_A_REQUEST = 1.5
 _SECONDS_A_QUICK_REQUEST = 0.15
+
+
+def spread_counts(largest: int, each: int) -> list[int]:
+    """Return counts at all scales up to ``largest``: ``each`` in every octave that nobody would choose, rising.
+
+    Faults begin at sizes where an author has chosen a limit, such as a power of two, or anywhere else.
+    """
+    rng = np.random.default_rng(97)
+    octaves = range(1, max(largest, 2).bit_length())
+    return sorted({min(int(2.0 ** (k + rng.random())), largest) for k in octaves for _ in range(each)})
 
 
 class Subject:
@@ -114,6 +124,7 @@ class SamplerSubject(Subject):
         self.sampler = configured_sampler(recipe)
         super().__init__(recipe, self.sampler, quick=quick)
         self._prepared: set[tuple[int, int]] = set()
+        self._extremes: list[tuple[str, Array]] | CheckFailed | NotApplicable | None = None
 
     def dims(self, wanted: int) -> int:
         """Return the declared number of dimensions nearest to ``wanted``."""
@@ -145,7 +156,7 @@ class SamplerSubject(Subject):
         return sorted({count for count in near if count is not None})
 
     def _nearest_count(self, wanted: int, dims: int) -> int | None:
-        """Return the nearest count up to 2^17, the smaller of two that are as near; None if there is none."""
+        """Return the nearest count up to 2^20, the smaller of two that are as near; None if there is none."""
         rising = takewhile(lambda count: count <= _LARGEST_JUDGED, self.spec.counts.rising(wanted, dims))
         falling = self._falling(min(wanted, _LARGEST_JUDGED) + 1, dims)
         nearest_first = heapq.merge(falling, rising, key=lambda count: abs(count - wanted))
@@ -186,7 +197,7 @@ class SamplerSubject(Subject):
         self.sets(count, dims, 1, first=1)
         seconds = max(time.process_time() - prepared, (prepared - began) / 16)
         largest = next((size for limit, size in _LARGEST_COUNTS if seconds < limit), 256)
-        if largest < _LARGEST_COUNTS[0][1]:
+        if largest < _LARGEST_COUNTS[1][1]:
             self.note(f"slow sampler ({seconds:.2g} s for {count} points): judged on sets of up to {largest} points")
         return largest
 
@@ -287,8 +298,10 @@ class SamplerSubject(Subject):
             **details,
         )
 
-    def affordable(self, wanted: int, count: int, dims: int, least: int = 64) -> int:
+    def affordable(self, wanted: int, count: int, dims: int, least: int = 64, share: float = 1.0) -> int:
         """Return ``wanted`` realisations, or a power of four fewer where the sampler is slow; a note says so.
+
+        ``share``: the time that these realisations may take, relative to that of a usual request.
 
         In steps of four, two machines give the same results unless one is about four times slower. The time is that of
         the processor, so that a busy machine gives the results of an idle one.
@@ -298,7 +311,7 @@ class SamplerSubject(Subject):
         if seconds < 1e-3:
             # The time of so few sets is that of the calls, not that of the sets.
             seconds = self._seconds_a_set(256, count, dims)
-        budget = _SECONDS_A_QUICK_REQUEST if self.quick else _SECONDS_A_REQUEST
+        budget = share * (_SECONDS_A_QUICK_REQUEST if self.quick else _SECONDS_A_REQUEST)
         realizations = wanted
         while realizations // 4 >= least and realizations * seconds > budget:
             realizations //= 4
@@ -311,10 +324,18 @@ class SamplerSubject(Subject):
         self.sets(count, dims, sets)
         return (time.process_time() - began) / sets
 
-    @cached_property
+    @property
     def extremes(self) -> list[tuple[str, Array]]:
         """Points made with all random bits ones, and zeros; none in a quick run. See :func:`forced_extremes`."""
-        return [] if self.quick else forced_extremes(self)
+        if self._extremes is None:
+            try:
+                self._extremes = [] if self.quick else forced_extremes(self)
+            except (CheckFailed, NotApplicable) as problem:
+                # Other checks that ask give the same answer, without the time that it takes.
+                self._extremes = problem
+        if isinstance(self._extremes, Exception):
+            raise self._extremes
+        return self._extremes
 
 
 def make_subject(recipe: Recipe, kind: Kind, *, quick: bool = False) -> SamplerSubject | SceneSubject:

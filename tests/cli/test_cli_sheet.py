@@ -160,6 +160,14 @@ def test_progressivity_in_words():
     assert [words.progressive_word(spec) for spec in specs] == ["no", "every-count", "powers-of-2"]
 
 
+def test_extensibility_in_words():
+    specs = [SamplerSpec("x", "a:B", "", **declared) for declared in ({}, {"extensible_dims": False})]
+    assert words.extensible(specs[0]) == "yes: the first dimensions stay when there are more"
+    assert words.extensible(specs[1]) == "no: another number of dimensions is another set"
+    fixed = SamplerSpec("x", "a:B", "", dimensions=(2, 2))
+    assert words.extensible(fixed) == "no: the number of dimensions is fixed"
+
+
 def test_a_plain_name_imports_no_implementation():
     code = (
         "import sys; from samplekit._cli import run; run(['list', 'samplers', 'sobol']);"

@@ -126,6 +126,7 @@ def test_a_declaration_for_a_newer_interface_is_refused(kind):
         {"progressive": "no"},
         {"progressive": "every-count"},
         {"progressive": PowersOf},
+        {"extensible_dims": 1},
         {"period": 0},
         {"period": -1},
         {"largest_index": -1},

@@ -33,5 +33,5 @@ def test_counts_that_the_sampler_refuses_and_those_too_large_are_passed_over():
     assert SamplerSubject(spec).counts(100, dims=2) == [32]
     assert nearest(PowersOf(2), 100, largest_index=99) == [64]
     assert nearest(PowersOf(2), 1000, largest_index=99) == [64]
-    assert nearest(Exactly(2**17 + 1), 100) == []
+    assert nearest(Exactly(2**20 + 1), 100) == []
     assert nearest(Exactly(1000), 100, largest_index=99) == []

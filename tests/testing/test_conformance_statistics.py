@@ -7,6 +7,7 @@ import pytest
 
 from samplekit.testing import _statistics as statistics
 from samplekit.testing._checks.dimensions import pair_correlations
+from samplekit.testing._checks.joint import held_in_cells, walsh
 from samplekit.testing._checks.uniformity import SIDE, cell_counts, integrands
 
 
@@ -24,12 +25,12 @@ def test_thresholds_are_quantiles():
 
 
 def test_chi_square_of_uniform_points_has_the_quantiles_it_should():
-    """At a threshold of 1 in 20, so that false alarms can be counted: 400 samples of 58 621 points."""
+    """At a threshold of 1 in 20, so that false alarms can be counted: 400 samples of 524 706 points."""
     from scipy.special import chdtri
 
     rng = np.random.default_rng(8)
-    expected = 61.0
-    counts = rng.multinomial(61 * SIDE**2, np.full(SIDE**2, 1 / SIDE**2), size=400)
+    expected = 546.0
+    counts = rng.multinomial(546 * SIDE**2, np.full(SIDE**2, 1 / SIDE**2), size=400)
     statistic = ((counts - expected) ** 2).sum(axis=1) / expected
     alarms = int((statistic > chdtri(SIDE**2 - 1, 0.05)).sum())
     assert 5 <= alarms <= 38  # 20 expected; 4 standard deviations
@@ -37,9 +38,9 @@ def test_chi_square_of_uniform_points_has_the_quantiles_it_should():
 
 def test_the_density_that_is_seen_is_the_one_that_is_stated():
     rng = np.random.default_rng(9)
-    weights = 1.0 + 0.07 * rng.choice([-1.0, 1.0], SIDE**2)
-    counts = rng.multinomial(61 * SIDE**2, weights / weights.sum(), size=200)
-    statistic = ((counts - 61.0) ** 2).sum(axis=1) / 61.0
+    weights = 1.0 + 0.024 * rng.choice([-1.0, 1.0], SIDE**2)
+    counts = rng.multinomial(546 * SIDE**2, weights / weights.sum(), size=200)
+    statistic = ((counts - 546.0) ** 2).sum(axis=1) / 546.0
     assert (statistic > statistics.chi_square_threshold(2, SIDE**2 - 1)).mean() > 0.9
 
 
@@ -77,3 +78,37 @@ def test_the_bias_and_the_correlation_that_are_seen_are_those_that_are_stated():
     # Padded nets have twice the variance of independent points.
     dimensions = (statistics.normal_threshold(56) + beyond) * math.sqrt(2 / (64 * 4095))
     assert dimensions <= 0.019
+
+
+def test_the_joint_density_that_is_seen_is_the_one_that_is_stated():
+    """Nine times in ten: an interval that holds n points is known to 1 / sqrt(n)."""
+    for points, groups, half, narrow in ((2**23, 512, 0.003, 0.024), (2**19, 128, 0.013, 0.1)):
+        beyond = statistics.student_threshold(500_000, groups - 1) + 1.2816
+        assert beyond / math.sqrt(points) <= half
+        assert beyond / math.sqrt(points / 64) <= narrow
+
+
+def test_coincidences_are_limited_by_their_rate():
+    """The limit is a tail of the Poisson distribution, here summed by hand."""
+    limit = statistics.poisson_threshold(3.0, 10)
+    below = math.fsum(math.exp(-3.0) * 3.0**n / math.factorial(n) for n in range(limit))
+    assert 1.0 - below <= statistics.CHECK_RATE / 10
+    assert statistics.poisson_threshold(1e-9, 10) == 2
+
+
+def test_cells_hold_every_point_once():
+    points = np.random.default_rng(4).random((3, 5000))
+    held = dict(held_in_cells(points, {1: 16, 2: 4, 3: 2}))
+    assert list(held) == [(0,), (1,), (2,), (0, 1), (0, 2), (1, 2), (0, 1, 2)]
+    assert all(each.sum() == 5000 for each in held.values())
+    assert held[0, 1][4 * 3 + 1] == ((points[0] >= 0.75) & (points[1] >= 0.25) & (points[1] < 0.5)).sum()
+
+
+def test_walsh_functions_see_what_no_pair_of_dimensions_shows():
+    held = np.zeros((1, 2, 2, 2))
+    for x, y, z in ((0, 0, 1), (0, 1, 0), (1, 0, 0), (1, 1, 1)):
+        held[0, x, y, z] = 1.0
+    found = walsh(held)[0]
+    assert found[0, 0, 0] == 4.0
+    assert found[1, 1, 1] == -4.0
+    assert np.count_nonzero(found) == 2

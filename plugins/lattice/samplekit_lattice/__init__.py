@@ -23,6 +23,8 @@ def samplekit_samplers() -> list[SamplerSpec]:
             "golden-ratio sequence, randomly shifted",
             reference="Roberts 2018, after Kronecker and Weyl",
             progressive=AnyCount(),
+            # The steps are powers of a root of x^(d + 1) = x + 1: other ones for each number d of dimensions.
+            extensible_dims=False,
             largest_index=2**32 - 1,
         ),
         SamplerSpec(

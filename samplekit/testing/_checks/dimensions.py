@@ -1,4 +1,4 @@
-"""Across dimensions: no two dimensions are correlated, above all no padded ones.
+"""Across dimensions: no two dimensions are correlated, above all no padded ones; no three or four are tied together.
 
 The sets are so large that true sequences have converged: with 256 points, Halton's dimensions 6 and 7 (bases 17 and 19)
 have correlation 0.09, which belongs to the sequence and falls as 1/N; the correlation of wrongly padded ones stays.
@@ -6,10 +6,12 @@ have correlation 0.09, which belongs to the sequence and falls as 1/N; the corre
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
 
+from samplekit.testing._checks.joint import SIDES, walsh
 from samplekit.testing._result import CheckFailed, NotApplicable, conformance_check
 from samplekit.testing._statistics import chi_square_threshold, normal_threshold
 from samplekit.testing._subject import Array, SamplerSubject
@@ -23,11 +25,18 @@ Where padded dimensions are nets of base 2 whose indices are shuffled as Owen sc
 lie in opposite halves of each dimension: N / 2 signs are random in place of N values, which is twice the variance.
 """
 _REALIZATIONS, _QUICK_REALIZATIONS = 64, 16
+_TIED_DIMS, _TIED_COUNT, _TIED_SETS = 5, 1 << 16, 4
+_MOST_TIED = 0.3
+"""Most of |S|^2 / N^2, where S is the sum over a set of a Fourier or Walsh function of three or four dimensions.
+
+It is 1 where one dimension is the sum of two others, 1 / N for random points, and at most 0.14 in all samplers of
+ours, lattices among them: they have such functions too, whose frequencies grow with N.
+"""
 
 
 @conformance_check("across-dimensions", 14)
 def check_across_dimensions(subject: SamplerSubject) -> None:
-    """Two dimensions of a set are correlated little more than random ones, in every set and on average.
+    """Two dimensions of a set are correlated little more than random ones; no one is a function of two or three.
 
     A set of n points may have a correlation of about 7 / sqrt(n).
     """
@@ -62,6 +71,43 @@ def check_across_dimensions(subject: SamplerSubject) -> None:
                     f" {count} independent points",
                     subject.example(values, count, row=row, first=int(asked.x[row]) - row, axes=(int(i), int(j))),
                 )
+    _judge_tied(subject)
+
+
+def _judge_tied(subject: SamplerSubject) -> None:
+    """Raise if three or four dimensions are tied together in every set: one is the sum of the others, say."""
+    spec = subject.spec
+    dims = subject.dims(4 if spec.counts.depends_on_dims else _TIED_DIMS)
+    counts = subject.counts(_TIED_COUNT, dims=dims)
+    if dims < 3 or not counts or counts[0] < _TIED_COUNT // 2:
+        return
+    count, sets = counts[0], _TIED_SETS if spec.randomized else 1
+    values = subject.fill(subject.sampler.trials(0, sets, 0), count, dims)
+    for axes in itertools.chain(*(itertools.combinations(range(dims), number) for number in (3, 4))):
+        share = _largest_share(values[:, list(axes)])
+        if share > _MOST_TIED:
+            raise CheckFailed(
+                f"dimensions {', '.join(map(str, axes))} are tied together: a Fourier or Walsh function of them has"
+                f" |S|^2 = {share:.2g} N^2 in sets of N = {count} points, at most {_MOST_TIED} N^2 expected",
+                subject.request(count, dims, axes=axes),
+            )
+
+
+def _largest_share(values: Array) -> float:
+    """Return the largest mean of |S|^2 / N^2 over the sets float64[R, D, N], of functions that vary in all dimensions.
+
+    Fourier frequencies go up to a quarter of the cells along each axis, and Walsh functions up to as many as the cells.
+    """
+    sets, dims, count = values.shape
+    side = SIDES[dims]
+    place = np.zeros((sets, count), np.int64)
+    for axis in range(dims):
+        place = place * side + np.clip((values[:, axis] * side).astype(np.int64), 0, side - 1)
+    held = np.stack([np.bincount(row, minlength=side**dims) for row in place]).reshape(sets, *[side] * dims)
+    low = [*range(1, side // 4 + 1), *range(-(side // 4), 0)]
+    fourier = np.fft.fftn(held, axes=tuple(range(1, dims + 1)))[np.ix_(range(sets), *[low] * dims)]
+    found = (fourier, walsh(held.astype(float))[(slice(None), *[slice(1, None)] * dims)])
+    return max(float((np.abs(each) ** 2).mean(axis=0).max()) for each in found) / float(count) ** 2
 
 
 def pair_correlations(values: Array) -> Array:

@@ -12,14 +12,16 @@ from samplekit.testing._judge import judge_equal, judge_promise, repeated
 from samplekit.testing._result import CheckFailed, NotApplicable, conformance_check
 from samplekit.testing._subject import SamplerSubject
 
-_PLACES = (2**16, 2**31 - 1, 2**32, 2**40)
+_PLACES = (2**31 - 1, *(2**k for k in range(11, 41)), *(3 * 2**k + 17 for k in range(10, 38, 3)), 10**5, 10**6, 10**9)
 _POINTS = 16
+_LATE_BLOCKS = (64, 4096)
+"""Points of the blocks of sequences that are judged at large indices, at least."""
 _COORDINATES = (0, 1, 255, 256, 2**16 + 1, 2**31 - 1, 2**32 - 1)
 
 
 @conformance_check("large-index", 16)
 def check_large_index(subject: SamplerSubject) -> None:
-    """Points at indices about 2^16, 2^31, 2^32 and 2^40, as far as declared, are correct and repeat no small ones."""
+    """Points about the indices 2^11, 2^12, ... 2^40, as far as declared, are right and repeat no small ones."""
     if not subject.sampler.streams:
         raise NotApplicable("it makes sets as a whole: large indices are large sets")
     dims, most = subject.dims(2), subject.spec.largest_index + 1
@@ -44,16 +46,35 @@ def check_large_index(subject: SamplerSubject) -> None:
                     f"point {start + late} of {count} is point {early} again",
                     subject.example(values, count, start=start, indices=(late,)),
                 )
+    _judge_late_prefixes(subject, dims)
     for net in promised_nets(subject.spec):
-        if net.sequence:
-            _judge_late_blocks(subject, net)
+        for least in _LATE_BLOCKS if net.sequence else ():
+            _judge_late_blocks(subject, net, least)
 
 
-def _judge_late_blocks(subject: SamplerSubject, net: Net) -> None:
+def _judge_late_prefixes(subject: SamplerSubject, dims: int) -> None:
+    """Raise unless a late part of a progressive sequence is the same in longer ones."""
+    progressive = subject.spec.progressive
+    if progressive is None:
+        return
+    for place in _PLACES:
+        short = progressive.above(place, dims)
+        long = None if short is None else progressive.above(2 * short - 1, dims)
+        if short and long and subject.allows(short, dims) and subject.allows(long, dims):
+            part, same = (
+                subject.fill(subject.sampler.trials(0, 2, 0), count, dims, short - _POINTS, _POINTS)
+                for count in (short, long)
+            )
+            judge_equal(subject, part, same, short, f"as a prefix of {long} points", start=short - _POINTS)
+
+
+def _judge_late_blocks(subject: SamplerSubject, net: Net, least: int) -> None:
     """Raise unless the blocks about large indices of a promised (t, s)-sequence are nets."""
     dims = subject.dims(max(net.dims) + 1)
-    block = next(net.base**m for m in range(64) if net.base**m >= 64 or m == net.t + 3)
+    block = next(net.base**m for m in range(64) if net.base**m >= least or m == net.t + 3)
     for place in _PLACES:
+        if place < block:
+            continue
         # Some samplers make powers of the base only.
         count = PowersOf(net.base).above(place + block - 1, dims)
         if subject.allows(count, dims):

@@ -8,14 +8,18 @@ from collections.abc import Sequence
 from samplekit._specs import MinimumDistance, Net, Promise, SamplerSpec, Strata
 from samplekit.testing._judge import judge_promise
 from samplekit.testing._result import NotApplicable, conformance_check
-from samplekit.testing._subject import SamplerSubject
+from samplekit.testing._subject import SamplerSubject, spread_counts
 
-_LARGEST_NET, _LARGEST_QUICK_NET = 1 << 16, 1 << 12
+_LARGEST_NET, _LARGEST_QUICK_NET = 1 << 20, 1 << 12
 _LARGEST_BLOCK = 1 << 10
 _MOST_WORK = 1 << 25
-_COUNTS = (1, 2, 3, 4, 5, 6, 7, 9, 12, 16, 25, 49, 64, 96, 97, 100, 121, 256, 1000, 1024, 2025, 4096)
-_QUICK_COUNTS = (1, 2, 3, 4, 7, 12, 25, 64, 97, 1000)
-_DISTANCE_COUNTS, _QUICK_DISTANCE_COUNTS = (2, 3, 16, 64, 97, 100, 256, 1024), (2, 3, 16, 64, 97, 100, 256)
+_COUNTS = (1, 2, 3, 4, 5, 6, 7, 9, 12, 16, 25, 49, 64, 96, 97, 100, 121, 256, 1000, 1024, 2025, 4095, 4096)
+_LARGE_COUNTS = (*(n for k in range(12, 21) for n in (2**k, 2**k + 1)), 10**4, 10**5, 10**6)
+_QUICK_COUNTS = (1, 2, 3, 4, 7, 12, 25, 64, 97, 1000, 4096, 4097, 2**13, 2**16, 2**16 + 1)
+_DISTANCE_COUNTS = (2, 3, 16, 64, 97, 100, 256, 1024, 4096, 4097, 2**13)
+_QUICK_DISTANCE_COUNTS = (2, 3, 16, 64, 97, 100, 256)
+_MANY, _QUICK_MANY = 1024, 256
+"""Sets of up to 100 points that are judged, of each seed: a fault in one of a hundred is in them."""
 _SEEDS = (0, 1)
 
 
@@ -47,8 +51,10 @@ def check_elementary_intervals(subject: SamplerSubject) -> None:
             if not subject.allows(count, dims):
                 continue
             judged = True
-            wanted = 256 if count <= 256 else 64 if count <= 1024 else 8 if count <= 8192 else 2
-            _judge_sets(subject, net, count, dims, wanted, least=2, seeds=_SEEDS[: 1 if subject.quick else 2])
+            few = 256 if count <= 256 else 64 if count <= 1024 else 8 if count <= 8192 else 2 if count <= 2**16 else 1
+            wanted = few if subject.quick or count > 100 else _MANY
+            seeds = _SEEDS[: 1 if subject.quick or count > 2**16 else 2]
+            _judge_sets(subject, net, count, dims, wanted, least=1, seeds=seeds)
             if net.sequence and 1 < count <= _LARGEST_BLOCK:
                 _judge_later_blocks(subject, net, count, dims)
     if not judged:
@@ -96,12 +102,18 @@ def check_strata(subject: SamplerSubject) -> None:
     if not promises:
         raise NotApplicable("it promises no strata")
     judged = False
+    many = _QUICK_MANY if subject.quick else _MANY
+    large = () if subject.quick else (*_LARGE_COUNTS, *spread_counts(_LARGE_COUNTS[-1], 2))
     for promise in promises:
         for dims in sorted({subject.dims(d) for d in (1, 2, 3, 5)}):
-            for count in subject.counts(*(_QUICK_COUNTS if subject.quick else _COUNTS), dims=dims):
+            # The largest sets are judged in two dimensions, or in as many as there are at least.
+            more = large if dims == subject.dims(2) else ()
+            for count in subject.counts(*(_QUICK_COUNTS if subject.quick else _COUNTS), *more, dims=dims):
                 if next(promise.cells(count, dims), None) is not None:
                     judged = True
-                    _judge_sets(subject, promise, count, dims, 64 if count <= 100 else 4, least=4)
+                    wanted = many if count <= 100 else 4 if count <= 4096 else 1
+                    seeds = _SEEDS if count <= 4096 else _SEEDS[:1]
+                    _judge_sets(subject, promise, count, dims, wanted, least=min(wanted, 4), seeds=seeds)
     if not judged:
         raise NotApplicable("no count that it makes has the promised strata")
     _judge_extremes(subject, promises)
@@ -119,7 +131,8 @@ def check_minimum_distance(subject: SamplerSubject) -> None:
             for count in subject.counts(*(_QUICK_DISTANCE_COUNTS if subject.quick else _DISTANCE_COUNTS), dims=dims):
                 if promise.distance(count, dims) is not None:
                     judged = True
-                    realizations = subject.affordable(16 if count <= 256 else 2, count, dims, least=1)
+                    wanted = 128 if count <= 100 and not subject.quick else 16 if count <= 256 else 2
+                    realizations = subject.affordable(wanted, count, dims, least=1)
                     judge_promise(subject, promise, subject.sets(count, dims, realizations), count)
     if not judged:
         raise NotApplicable("the densest packing is known in 1 to 5 dimensions, of 2 points and more")

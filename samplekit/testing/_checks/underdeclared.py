@@ -25,6 +25,8 @@ def check_under_declaring(subject: SamplerSubject) -> None:
         subject.hints.append("every cell of the grid holds one point: GridStrata() could be promised")
     if dims >= 2 and not spec.promised(Net) and len(net_counts) >= 2 and _holds(subject, Net(), net_counts, dims):
         subject.hints.append("dimensions 0 and 1 are (0, m, 2)-nets in base 2: Net(dims=(0, 1)) could be promised")
+    if not spec.extensible_dims and _has_first_dimensions(subject):
+        subject.hints.append("the first dimensions stay when there are more: extensible_dims=True could be declared")
     if spec.randomized:
         values = subject.sets(subject.counts(16, dims=dims)[0], dims, _REALIZATIONS)
         if (values == values[:1]).all():
@@ -37,6 +39,18 @@ def _has_prefixes(subject: SamplerSubject, dims: int) -> bool:
         return False
     whole = subject.sets(counts[-1], dims, 2)
     return all((subject.sets(count, dims, 2) == whole[:, :, :count]).all() for count in counts[:-1])
+
+
+def _has_first_dimensions(subject: SamplerSubject) -> bool:
+    """Tell whether fewer dimensions are the first ones of more, in at least two sets of different counts."""
+    low, high = subject.dims(1), subject.dims(4)
+    judged = [count for count in subject.counts(1, 4, 16, 64, 256, dims=high) if subject.allows(count, low)]
+    return len(judged) > 1 and all(
+        (subject.sets(count, dims, 2) == subject.sets(count, high, 2)[:, :dims]).all()
+        for count in judged
+        for dims in range(low, high)
+        if subject.allows(count, dims)
+    )
 
 
 def _holds(subject: SamplerSubject, promise: Promise, counts: list[int], dims: int) -> bool:

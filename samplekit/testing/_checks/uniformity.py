@@ -14,7 +14,7 @@ from samplekit.testing._statistics import chi_square_threshold, student_threshol
 from samplekit.testing._subject import Array, SamplerSubject
 
 SIDE = 31
-_PER_CELL = 61
+_PER_CELL = 546
 _COUNT = 16
 _BATCH = 1 << 11
 _BIAS_REALIZATIONS, _QUICK_BIAS_REALIZATIONS = 1 << 14, 1 << 10
@@ -47,7 +47,7 @@ def cell_counts(points: Array, axes: tuple[int, ...]) -> NDArray[np.int64]:
 
 @conformance_check("uniformity", 10)
 def check_uniformity(subject: SamplerSubject) -> None:
-    """Points fill 31 x 31 cells evenly, about 61 a cell, by a chi-square test with 960 degrees of freedom."""
+    """Points fill 31 x 31 cells evenly, about 546 a cell, by a chi-square test with 960 degrees of freedom."""
     spec = subject.spec
     # A grid of many points fills the cells of two dimensions; in more dimensions it is too coarse.
     dims = subject.dims(4 if spec.randomized or not spec.counts.depends_on_dims else 2)

@@ -4,7 +4,18 @@ A mutant wraps one of our own samplers and breaks one thing. Many are faults tha
 ``python tests/testing/mutation.py`` prints which check catches which.
 """
 
-from mutants import distribution, effects, requests, structure, values
+from mutants import density, distribution, effects, relations, requests, sizes, structure, values
 from mutants.mutant import MUTANTS, Mutant
 
-__all__ = ["MUTANTS", "Mutant", "distribution", "effects", "requests", "structure", "values"]
+__all__ = [
+    "MUTANTS",
+    "Mutant",
+    "density",
+    "distribution",
+    "effects",
+    "relations",
+    "requests",
+    "sizes",
+    "structure",
+    "values",
+]

@@ -1,0 +1,158 @@
+"""Joint uniformity: intervals of one dimension, and cells of two to four, hold their shares of all points.
+
+All points of many sets are counted in cells. Points of one set depend on each other, so sets are put together in
+groups, which are independent, and means over groups are judged. Every quantity is a linear function of the counts whose
+mean is zero for uniform points: counts of intervals from one half to 1/1024, counts of cells, and Fourier and Walsh
+coefficients of the counts, which see a bias of three dimensions that no pair of them has.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from samplekit.testing._result import CheckFailed, NotApplicable, conformance_check
+from samplekit.testing._statistics import student_threshold
+from samplekit.testing._subject import Array, SamplerSubject
+
+SIDES = {1: 1024, 2: 32, 3: 8, 4: 4}
+"""Cells along each axis, by the number of dimensions that are judged together."""
+_DIMS, _MIXED_DIMS = 4, 6
+_COUNTS, _QUICK_COUNTS = (1, 4, 16, 64, 100, 256, 1024, 4096, 1 << 14), (16, 256)
+_MOST_MIXED = 1 << 12
+_POINTS, _QUICK_POINTS = 1 << 23, 1 << 19
+_GROUPS, _QUICK_GROUPS = 512, 128
+_TESTS = 500_000
+"""More than the number of tests in all: 34 000 for each of nine counts in four dimensions, 116 000 in six."""
+_PER_CELL, _SAMPLES = 512, 16
+"""Sets that have a point in a cell, at least: counts of so many are nearly normal. It is found from a few sets."""
+_ROUNDING = 1e-9
+
+
+@conformance_check("joint-uniformity", 23)
+def check_joint_uniformity(subject: SamplerSubject) -> None:
+    """Intervals, and cells of two, three and four dimensions, hold their shares at many counts, by t-tests."""
+    if not (subject.spec.randomized and subject.spec.unbiased):
+        raise NotApplicable("it is not declared random and unbiased")
+    groups = _QUICK_GROUPS if subject.quick else _GROUPS
+    if subject.sampler.streams:
+        dims = subject.most_dims(_DIMS if subject.quick else _MIXED_DIMS)
+        exponents = np.random.default_rng(12).random(groups)
+        mixed = [subject.counts(int(_MOST_MIXED**exponent), dims=dims)[0] for exponent in exponents]
+        _judge(subject, dims, mixed, f"sets of {min(mixed)} to {max(mixed)} points")
+    dims = subject.most_dims(_DIMS)
+    for count in subject.counts(*(_QUICK_COUNTS if subject.quick else _COUNTS), dims=dims):
+        _judge(subject, dims, [count] * groups, f"sets of {count} points")
+
+
+def _judge(subject: SamplerSubject, dims: int, counts: list[int], what: str) -> None:
+    """Judge groups of sets, one of each of the counts."""
+    wanted = (_QUICK_POINTS if subject.quick else _POINTS) // len(counts)
+    largest = max(counts)
+    most = subject.affordable(max(len(counts), len(counts) * wanted // largest), largest, dims, share=2.0)
+    counts = counts[:most]
+    each = max(1, most // len(counts)) * largest
+    totals: dict[tuple[int, ...], list[NDArray[np.int64]]] = {}
+    sets = [max(1, min(wanted, each) // count) for count in counts]
+    sizes = np.multiply(sets, counts)
+    total = int(sizes.sum())
+    sides = _judged_sides(subject, counts, sets, dims)
+    first = 0
+    for count, number in zip(counts, sets, strict=True):
+        points = subject.fill(subject.sampler.trials(first, first + number, 0), count, dims)
+        first += number
+        for axes, held in held_in_cells(points.transpose(1, 0, 2).reshape(dims, -1), sides):
+            totals.setdefault(axes, []).append(held)
+    threshold = student_threshold(_TESTS, len(counts) - 1)
+    for axes, counted in totals.items():
+        side, number = sides[len(axes)], len(axes)
+        excess = (np.array(counted) / sizes[:, None] * side**number - 1.0).reshape(-1, *[side] * number)
+        for name, shape, values in _functionals(excess):
+            flat = values.reshape(len(values), -1)
+            mean, error = flat.mean(axis=0), flat.std(axis=0, ddof=1) / math.sqrt(len(values))
+            # A quantity that is the same in every group is exact, up to rounding.
+            wrong = np.abs(mean) > np.maximum(threshold * error, _ROUNDING)
+            if wrong.any():
+                worst = int(np.argmax(wrong * np.abs(mean) / np.maximum(error, _ROUNDING)))
+                place = ", ".join(str(int(each)) for each in np.unravel_index(worst, shape))
+                grid = " x ".join(map(str, shape))
+                raise CheckFailed(
+                    f"{name} ({place}) of {grid} of {_dimensions(axes)} is off by {mean[worst]:.3g}, relative to a"
+                    f" uniform density: at most {threshold * error[worst]:.2g} expected of {total} points in {what}",
+                    subject.request(counts[0], dims, axes=axes),
+                )
+
+
+def _judged_sides(subject: SamplerSubject, counts: list[int], sets: list[int], dims: int) -> dict[int, int]:
+    """Return the cells along each axis by the number of dimensions: as many as leave enough sets for each cell.
+
+    Many points of a set may share a coordinate, or lie in few cells, so points are no measure of what is known.
+    """
+    chosen = range(0, len(counts), -(-len(counts) // _SAMPLES))
+    sample = [(subject.fill(subject.sampler.trials(i, i + 1, 0), counts[i], dims)[0], sets[i]) for i in chosen]
+    sides = {}
+    for number, most in list(SIDES.items())[:dims]:
+        side = most
+        while side > 1 and _sets_in_a_cell(sample, number, side) * len(counts) < _PER_CELL * len(sample):
+            side //= 2
+        if side > 1:
+            sides[number] = side
+    return sides
+
+
+def _sets_in_a_cell(sample: list[tuple[Array, int]], number: int, side: int) -> float:
+    """Return how many sets have a point in a cell on average, where each set of the sample stands for as many others.
+
+    The least over all choices of ``number`` dimensions.
+    """
+    totals: dict[tuple[int, ...], float] = {}
+    for points, sets in sample:
+        for axes, held in held_in_cells(points, {number: side}):
+            totals[axes] = totals.get(axes, 0.0) + sets * float((held > 0).mean())
+    return min(totals.values())
+
+
+def held_in_cells(points: Array, sides: Mapping[int, int]) -> Iterator[tuple[tuple[int, ...], NDArray[np.int64]]]:
+    """Yield the axes, and the numbers of the points float64[D, M] in the cells, of one to four dimensions together."""
+    finest = max(sides.values(), default=1)
+    cells = np.clip((points * finest).astype(np.int64), 0, finest - 1)
+    for number, side in sides.items():
+        coarse = cells // (finest // side)
+        for axes in itertools.combinations(range(len(points)), number):
+            place = coarse[axes[0]]
+            for axis in axes[1:]:
+                place = place * side + coarse[axis]
+            yield axes, np.bincount(place, minlength=side**number)
+
+
+def _functionals(excess: Array) -> Iterator[tuple[str, tuple[int, ...], Array]]:
+    """Yield each kind of quantity: its name, the shape of its numbers, and its values float64[G, ...]."""
+    groups, *sides = excess.shape
+    cells = int(np.prod(sides))
+    if len(sides) == 1:
+        for level in range(1, cells.bit_length()):
+            yield "density of interval", (2**level,), excess.reshape(groups, 2**level, -1).mean(axis=2)
+    else:
+        yield "density of cell", tuple(sides), excess
+        yield "Walsh coefficient", tuple(sides), walsh(excess) / cells
+    coefficients = np.fft.rfftn(excess, axes=tuple(range(1, excess.ndim))) / cells
+    yield "cosine coefficient", coefficients.shape[1:], coefficients.real
+    yield "sine coefficient", coefficients.shape[1:], coefficients.imag
+
+
+def walsh(held: Array) -> Array:
+    """Return the Walsh transform, in Hadamard's order, along all axes but the first."""
+    matrix = np.ones((1, 1))
+    while len(matrix) < held.shape[1]:
+        matrix = np.block([[matrix, matrix], [matrix, -matrix]])
+    for axis in range(1, held.ndim):
+        held = np.moveaxis(np.tensordot(held, matrix, (axis, 0)), -1, axis)
+    return held
+
+
+def _dimensions(axes: tuple[int, ...]) -> str:
+    return f"dimension{'s' if len(axes) > 1 else ''} {', '.join(map(str, axes))}"
