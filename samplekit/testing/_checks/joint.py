@@ -45,7 +45,7 @@ def check_joint_uniformity(subject: SamplerSubject) -> None:
         mixed = [subject.counts(int(_MOST_MIXED**exponent), dims=dims)[0] for exponent in exponents]
         _judge(subject, dims, mixed, f"sets of {min(mixed)} to {max(mixed)} points")
     dims = subject.most_dims(_DIMS)
-    for count in subject.counts(*(_QUICK_COUNTS if subject.quick else _COUNTS), dims=dims):
+    for count in subject.counts(*(_QUICK_COUNTS if subject.quick or subject.slow else _COUNTS), dims=dims):
         _judge(subject, dims, [count] * groups, f"sets of {count} points")
 
 
