@@ -201,6 +201,11 @@ class SamplerSubject(Subject):
             self.note(f"slow sampler ({seconds:.2g} s for {count} points): judged on sets of up to {largest} points")
         return largest
 
+    @property
+    def slow(self) -> bool:
+        """Whether sets take so long that only small ones, of few counts and seeds, are judged."""
+        return self.largest_count < _LARGEST_COUNTS[1][1]
+
     def fill(
         self,
         realizations: Realizations,

@@ -90,7 +90,7 @@ def _affordable_seeds(subject: SamplerSubject) -> tuple[int, ...]:
     """Return the seeds: fewer of a sampler that is slow, which may make something for each."""
     seeds = _QUICK_SEEDS if subject.quick else _SEEDS
     slow = subject.affordable(len(seeds), subject.counts(_COUNT, dims=subject.dims(2))[0], subject.dims(2), least=4)
-    return seeds if slow == len(seeds) else _QUICK_SEEDS[:4]
+    return seeds if slow == len(seeds) and not subject.slow else _QUICK_SEEDS[:4]
 
 
 def _judge_whole_sets(subject: SamplerSubject, pixels: NDArray[np.int64], seeds: tuple[int, ...]) -> None:
@@ -112,7 +112,9 @@ def _requests(subject: SamplerSubject) -> list[tuple[int, int]]:
     """Return counts and numbers of dimensions: about 16 points first, and three dimensions first."""
     dims = sorted({subject.dims(d) for d in _DIMS}, key=lambda d: (d != subject.dims(3), d))
     found = [(count, d) for d in dims for count in subject.counts(*_COUNTS, dims=d)]
-    return sorted(found, key=lambda request: abs(request[0] - _COUNT))[: 4 if subject.quick else None]
+    return sorted(found, key=lambda request: abs(request[0] - _COUNT))[
+        : 2 if subject.slow else 4 if subject.quick else None
+    ]
 
 
 def _draw(subject: SamplerSubject, pixels: NDArray[np.int64], seeds: tuple[int, ...]) -> tuple[_Table, list[Owner]]:
