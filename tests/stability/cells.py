@@ -17,7 +17,7 @@ SAMPLERS = (
     "random", "jittered", "multi-jittered", "correlated-multi-jittered", "uncorrelated-jitter", "n-rooks",
     "latin-hypercube", "orthogonal-array", "sobol+owen", "sobol+xor", "sobol+shift", "owen-sobol", "halton+owen",
     "faure+owen", "niederreiter+owen", "hammersley+shift", "regular+shift", "r2+shift", "fibonacci", "rank1", "pmj02",
-    "poisson-disk", "hammersley", "sobol",
+    "poisson-disk", "hammersley", "sobol", "z-sobol",
 )  # fmt: skip
 SCENES = (
     "disk", "arc", "ellipse", "gaussian", "zoneplate", "step", "step", "checker", "bilinear", "power", "spike",
