@@ -154,9 +154,8 @@ class Stability:
                 lines.append(f"  {extreme:<{width}}{words}{note}")
             lines.append("")
         tally = {kind: number for kind, number in self._tally().items() if number}
-        lines.append(
-            f"{len(self.cells)} cell{'' if len(self.cells) == 1 else 's'}: {', '.join(f'{number} {kind}' for kind, number in tally.items())}"
-        )
+        words = ", ".join(f"{number} {kind}" for kind, number in tally.items())
+        lines.append(f"{len(self.cells)} cell{'' if len(self.cells) == 1 else 's'}: {words}")
         lines += [f"  {kind}: {meaning}" for kind, meaning in MEANINGS.items() if kind != "right" and kind in tally]
         lines += [
             f"wrong: {scene_text(cell.name, cell.extreme)}, {cell.sampler}, {cell.count}: {cell.verdict.reason}"
