@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from samplekit._study.errors import FEW_TRIALS, INFINITE_VARIANCE, errors_of, influence, ratio_of
+from samplekit._study.errors import FEW_TRIALS, HEAVY_TAILS, INFINITE_VARIANCE, errors_of, influence, ratio_of
 from samplekit._study.fit import fit_line, theoretical_exponent
 from samplekit._study.intervals import LEAST_TRIALS, derived_interval
 from samplekit._study.results import Fit, Interval, LeftOut, Row, Seconds, Spread, Times
@@ -92,9 +92,9 @@ class Analysis:
             all_rows = zip(self.combinations, rows, strict=True)
             own = [(self._sums[each], row) for each, row in all_rows if each.pair == pair]
             used = [(sums, row) for sums, row in own if row.fitted]
-            one_pixel = self._request.one_pixel
+            one_sampled = self._one_sampled(pair[0])
             influences = [
-                influence(sums, one_pixel=one_pixel) if np.count_nonzero(sums[:, TRIALS]) > 1 else None
+                influence(sums, one_pixel=one_sampled) if np.count_nonzero(sums[:, TRIALS]) > 1 else None
                 for sums, _ in used
             ]
             counts = [row.count for _, row in used]
@@ -118,9 +118,11 @@ class Analysis:
         return errors_of(
             self._sums[combination],
             one_pixel=self._request.one_pixel,
+            one_sampled=self._one_sampled(combination.scene),
             random=spec.randomized,
             unbiased=spec.unbiased,
             finite_variance=scene.finite_variance,
+            finite_kurtosis=scene.finite_kurtosis,
             floor=_floor(reference),
             largest=largest,
         )
@@ -177,6 +179,10 @@ class Analysis:
         doubt = "" if apart else "; the intervals of the two times overlap"
         return [f"takes less time than with {slower.count} sample{'' if slower.count == 1 else 's'}{doubt}"]
 
+    def _one_sampled(self, scene: str) -> bool:
+        """Return whether a trial is the estimate of one pixel: the unit square, or all others are constant."""
+        return self._request.one_pixel or self._resources.pixels(scene, self._request.size).sampled.size == 1
+
     def _samples(self, combination: Combination) -> int:
         """Return the number of samples of one trial."""
         if self._request.one_pixel:
@@ -208,8 +214,9 @@ class Analysis:
             return f"all trials gave one value, whose mse is {error:.3g}: nothing tells the errors of the next ones"
         return {
             "few hits": "too few trials found what makes up the error",
-            FEW_TRIALS: f"an interval needs {LEAST_TRIALS} trials of one pixel, or 2 of an image",
+            FEW_TRIALS: f"an interval needs {LEAST_TRIALS} trials if one pixel is sampled, or 2 of an image of several",
             INFINITE_VARIANCE: "the mean of the squares does not settle",
+            HEAVY_TAILS: "squared errors have an infinite variance, so their mean has no standard error",
         }[reason]
 
     def _ratio(self, combination: Combination, errors: Mapping[Combination, dict[str, Any]]) -> Interval | None:
@@ -219,7 +226,9 @@ class Analysis:
             if (other.sampler, other.scene, other.count) == first:
                 if other is combination:
                     return Interval(1.0, 1.0, 1.0)
-                ratio = ratio_of(self._sums[combination], self._sums[other], one_pixel=self._request.one_pixel)
+                ratio = ratio_of(
+                    self._sums[combination], self._sums[other], one_pixel=self._one_sampled(combination.scene)
+                )
                 known = not (errors[combination]["no_interval"] or errors[other]["no_interval"])
                 return ratio if known or ratio is None else Interval(ratio.estimate)
         return None

@@ -24,16 +24,20 @@ _ENOUGH_HITS = 16.0
 """Effective number of trials from which their errors have an interval; or a fifth of them, if that is less.
 
 With fewer, rare errors of another size are likely to be missing."""
-FEW_TRIALS, INFINITE_VARIANCE = "few trials", "infinite variance"
+_LEAST_PAIRS = 4
+"""Smallest number of pairs of images from which the squared bias has an interval."""
+FEW_TRIALS, INFINITE_VARIANCE, HEAVY_TAILS = "few trials", "infinite variance", "heavy tails"
 
 
 def errors_of(
     sums: Array,
     *,
     one_pixel: bool,
+    one_sampled: bool = False,
     random: bool = True,
     unbiased: bool = True,
     finite_variance: bool = True,
+    finite_kurtosis: bool = True,
     floor: float = 0.0,
     largest: float | None = None,
 ) -> dict[str, Any]:
@@ -51,10 +55,12 @@ def errors_of(
         float64[B, COLUMNS]: its batches in the order of their trials.
     one_pixel
         Whether the trials are estimates of the unit square; otherwise they are images.
+    one_sampled
+        Whether all pixels of the images but one are constant: their errors scatter as those of one pixel.
     random, unbiased
         Whether the sampler is random, and whether its mean over realisations is the integral.
-    finite_variance
-        Whether the values of the scene have a finite variance.
+    finite_variance, finite_kurtosis
+        Whether the squares, and the fourth powers, of the values of the scene have a finite mean.
     floor
         Largest error that rounding and the reference may cause in a pixel.
     largest
@@ -63,23 +69,34 @@ def errors_of(
     trials = sums[:, TRIALS]
     number = int(trials.sum())
     pairs = _whole_pairs(sums)
-    mse = positive_interval(sums[:, SQUARE], trials, one_pixel=one_pixel, missed=_missed(sums) if unbiased else 1.0)
+    single = one_pixel or one_sampled
+    missed = _missed(sums) if unbiased else 1.0
+    mse = positive_interval(sums[:, SQUARE], trials, one_pixel=single, missed=missed)
+    bias = mean_interval(sums[:, ERROR], trials)
     variance = _variance_of_pixel(sums) if one_pixel else _variance_from_pairs(pairs)
+    if unbiased and variance.estimate is not None and mse.low is not None and mse.high is not None:
+        # The variance of an unbiased estimate is its mean squared error, whose interval uses the known mean.
+        variance = Interval(variance.estimate, min(mse.low, variance.estimate), max(mse.high, variance.estimate))
+    by_pairs = mean_interval(pairs[:, PRODUCT], pairs[:, PAIRS])
+    if np.count_nonzero(pairs[:, PAIRS]) < _LEAST_PAIRS:
+        by_pairs = Interval(by_pairs.estimate)
     found: dict[str, Any] = {
         "mse": mse,
-        "bias": mean_interval(sums[:, ERROR], trials),
+        "bias": bias,
         "variance": variance,
-        "squared_bias": _difference(mse, variance, mean_interval(pairs[:, PRODUCT], pairs[:, PAIRS])),
-        "blurred_mse": None if one_pixel else positive_interval(sums[:, BLURRED], trials, one_pixel=False),
+        "squared_bias": _squared_bias(mse, variance, bias) if one_pixel else _difference(mse, variance, by_pairs),
+        "blurred_mse": None
+        if one_pixel
+        else positive_interval(sums[:, BLURRED], trials, one_pixel=single, missed=missed),
     }
     no_interval = ""
     if not random:
         found |= {"variance": Interval(0.0), "squared_bias": mse}
         found = {name: each and Interval(each.estimate, each.estimate, each.estimate) for name, each in found.items()}
     elif number:
-        no_interval = "" if finite_variance else INFINITE_VARIANCE
-        no_interval = no_interval or _judge_hits(sums, one_pixel=one_pixel, unbiased=unbiased, floor=floor)
-        if not no_interval and number < (LEAST_TRIALS if one_pixel else 2):
+        no_interval = INFINITE_VARIANCE if not finite_variance else "" if finite_kurtosis else HEAVY_TAILS
+        no_interval = no_interval or _judge_hits(sums, one_pixel=single, unbiased=unbiased, floor=floor)
+        if not no_interval and number < (LEAST_TRIALS if single else 2):
             no_interval = FEW_TRIALS
         if no_interval:
             found = {name: each and Interval(each.estimate) for name, each in found.items()}
@@ -140,6 +157,17 @@ def _missed(sums: Array) -> float:
     spread = float(deviations @ deviations)
     slope = float(deviations @ (sums[:, SQUARE] - trials * (square / total))) / spread if spread > 0.0 else 0.0
     return max(1.0, 1.0 - slope * error * total / square)
+
+
+def _squared_bias(mse: Interval, variance: Interval, bias: Interval) -> Interval:
+    """Return mse - variance of one pixel; the ends are the least and the largest square of the interval of the bias."""
+    if mse.estimate is None or variance.estimate is None:
+        return Interval(None)
+    difference = mse.estimate - variance.estimate
+    if bias.low is None or bias.high is None:
+        return Interval(difference)
+    squares = bias.low * bias.low, bias.high * bias.high
+    return Interval(difference, min(difference, 0.0 if bias.low <= 0.0 <= bias.high else min(squares)), max(squares))
 
 
 def _difference(mse: Interval, variance: Interval, by_pairs: Interval) -> Interval:
