@@ -92,9 +92,9 @@ class Analysis:
             all_rows = zip(self.combinations, rows, strict=True)
             own = [(self._sums[each], row) for each, row in all_rows if each.pair == pair]
             used = [(sums, row) for sums, row in own if row.fitted]
-            one_sampled = self._one_sampled(pair[0])
+            one_pixel = self._sampled(pair[0]) == 1
             influences = [
-                influence(sums, one_pixel=one_sampled) if np.count_nonzero(sums[:, TRIALS]) > 1 else None
+                influence(sums, one_pixel=one_pixel) if np.count_nonzero(sums[:, TRIALS]) > 1 else None
                 for sums, _ in used
             ]
             counts = [row.count for _, row in used]
@@ -118,7 +118,7 @@ class Analysis:
         return errors_of(
             self._sums[combination],
             one_pixel=self._request.one_pixel,
-            one_sampled=self._one_sampled(combination.scene),
+            sampled=self._sampled(combination.scene),
             random=spec.randomized,
             unbiased=spec.unbiased,
             finite_variance=scene.finite_variance,
@@ -179,16 +179,13 @@ class Analysis:
         doubt = "" if apart else "; the intervals of the two times overlap"
         return [f"takes less time than with {slower.count} sample{'' if slower.count == 1 else 's'}{doubt}"]
 
-    def _one_sampled(self, scene: str) -> bool:
-        """Return whether a trial is the estimate of one pixel: the unit square, or all others are constant."""
-        return self._request.one_pixel or self._resources.pixels(scene, self._request.size).sampled.size == 1
+    def _sampled(self, scene: str) -> int:
+        """Return the number of pixels that are sampled: those that are not constant, and 1 for the unit square."""
+        return 1 if self._request.one_pixel else int(self._resources.pixels(scene, self._request.size).sampled.size)
 
     def _samples(self, combination: Combination) -> int:
         """Return the number of samples of one trial."""
-        if self._request.one_pixel:
-            return combination.count
-        pixels = self._resources.pixels(combination.scene, self._request.size)
-        return int(pixels.sampled.size) * combination.count
+        return self._sampled(combination.scene) * combination.count
 
     def _why_left_out(self, combination: Combination, no_interval: str, mse: float | None, floor: float) -> str:
         """Return why the fit does not use a row; empty if it does."""
@@ -214,7 +211,7 @@ class Analysis:
             return f"all trials gave one value, whose mse is {error:.3g}: nothing tells the errors of the next ones"
         return {
             "few hits": "too few trials found what makes up the error",
-            FEW_TRIALS: f"an interval needs {LEAST_TRIALS} trials if one pixel is sampled, or 2 of an image of several",
+            FEW_TRIALS: f"an interval needs two trials, and {LEAST_TRIALS} estimates of pixels that are not constant",
             INFINITE_VARIANCE: "the mean of the squares does not settle",
             HEAVY_TAILS: "squared errors have an infinite variance, so their mean has no standard error",
         }[reason]
@@ -227,7 +224,7 @@ class Analysis:
                 if other is combination:
                     return Interval(1.0, 1.0, 1.0)
                 ratio = ratio_of(
-                    self._sums[combination], self._sums[other], one_pixel=self._one_sampled(combination.scene)
+                    self._sums[combination], self._sums[other], one_pixel=self._sampled(combination.scene) == 1
                 )
                 known = not (errors[combination]["no_interval"] or errors[other]["no_interval"])
                 return ratio if known or ratio is None else Interval(ratio.estimate)

@@ -33,7 +33,7 @@ def errors_of(
     sums: Array,
     *,
     one_pixel: bool,
-    one_sampled: bool = False,
+    sampled: int = LEAST_TRIALS,
     random: bool = True,
     unbiased: bool = True,
     finite_variance: bool = True,
@@ -55,8 +55,8 @@ def errors_of(
         float64[B, COLUMNS]: its batches in the order of their trials.
     one_pixel
         Whether the trials are estimates of the unit square; otherwise they are images.
-    one_sampled
-        Whether all pixels of the images but one are constant: their errors scatter as those of one pixel.
+    sampled
+        Number of pixels of an image that are not constant. If it is 1, its errors scatter as those of one pixel.
     random, unbiased
         Whether the sampler is random, and whether its mean over realisations is the integral.
     finite_variance, finite_kurtosis
@@ -69,7 +69,7 @@ def errors_of(
     trials = sums[:, TRIALS]
     number = int(trials.sum())
     pairs = _whole_pairs(sums)
-    single = one_pixel or one_sampled
+    single = one_pixel or sampled == 1
     missed = _missed(sums) if unbiased else 1.0
     mse = positive_interval(sums[:, SQUARE], trials, one_pixel=single, missed=missed)
     bias = mean_interval(sums[:, ERROR], trials)
@@ -96,7 +96,8 @@ def errors_of(
     elif number:
         no_interval = INFINITE_VARIANCE if not finite_variance else "" if finite_kurtosis else HEAVY_TAILS
         no_interval = no_interval or _judge_hits(sums, one_pixel=single, unbiased=unbiased, floor=floor)
-        if not no_interval and number < (LEAST_TRIALS if single else 2):
+        estimates = number if one_pixel else number * sampled
+        if not no_interval and (number < 2 or 0 < estimates < LEAST_TRIALS):
             no_interval = FEW_TRIALS
         if no_interval:
             found = {name: each and Interval(each.estimate) for name, each in found.items()}

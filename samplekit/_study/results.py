@@ -129,7 +129,7 @@ class Row:
         Why errors have no interval; empty if they have. ``"no hits"``: all trials gave one value, and it is not the
         mean of the scene. ``"few hits"``: too few trials found what makes up the error. ``"infinite variance"``
         or ``"heavy tails"``: the scene says that its square, or its fourth power, has no finite integral.
-        ``"few trials"``: fewer than 32 if one pixel is sampled, or one image of several. No fit uses such rows, and no
+        ``"few trials"``: one, or fewer than 32 estimates of pixels that are not constant. No fit uses such rows, and no
         ranking those of the other kinds.
     mse, rmse
         Mean over trials and pixels of the squared error, and its square root. Without hits there is no estimate, and

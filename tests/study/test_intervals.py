@@ -128,11 +128,12 @@ def test_squared_bias_of_one_pixel_is_covered_as_often_as_the_bias(bias):
 
 
 @pytest.mark.slow
-def test_an_image_with_one_pixel_that_is_not_constant_needs_as_many_trials_as_one_pixel():
+def test_an_image_of_few_pixels_that_are_not_constant_needs_as_many_estimates_as_one_pixel():
     small = "disk:radius=0.02"
-    assert {
-        row.no_interval for row in samplekit.compare("random", small, 16, trials=8, size=(8, 8), times=False).rows
-    } == {"few trials"}
+    for scene, size, least in ((small, (8, 8), 32), ("gaussian", (2, 1), 16), ("gaussian", (4, 4), 2)):
+        for trials in (least - 1, least):
+            (row,) = samplekit.compare("random", scene, 16, trials=trials, size=size, times=False).rows
+            assert (row.no_interval == "few trials") == (trials < least)
     many = carry_out(Job(small, "random", (16,), 0, 8000, 8, (8, 8), 4), Resources())[0].sum(axis=0)
     missed = 0
     for seed in range(100):
