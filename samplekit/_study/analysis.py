@@ -223,11 +223,9 @@ class Analysis:
             if (other.sampler, other.scene, other.count) == first:
                 if other is combination:
                     return Interval(1.0, 1.0, 1.0)
-                ratio = ratio_of(
-                    self._sums[combination], self._sums[other], one_pixel=self._sampled(combination.scene) == 1
-                )
-                known = not (errors[combination]["no_interval"] or errors[other]["no_interval"])
-                return ratio if known or ratio is None else Interval(ratio.estimate)
+                mine, theirs = errors[combination]["mse"], errors[other]["mse"]
+                one_pixel = self._sampled(combination.scene) == 1
+                return ratio_of(self._sums[combination], self._sums[other], mine, theirs, one_pixel=one_pixel)
         return None
 
     def _times(self, combination: Combination) -> Times | None:

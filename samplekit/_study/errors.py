@@ -10,6 +10,7 @@ import numpy as np
 from samplekit._integrate.hits import describe_hits, effective_hits
 from samplekit._study.intervals import (
     LEAST_TRIALS,
+    derived_interval,
     far_student,
     mean_and_error,
     mean_interval,
@@ -199,7 +200,7 @@ def influence(sums: Array, *, one_pixel: bool) -> Array:
     return deviations
 
 
-def ratio_of(sums: Array, baseline: Array, *, one_pixel: bool) -> Interval | None:
+def ratio_of(sums: Array, baseline: Array, mse: Interval, other: Interval, *, one_pixel: bool) -> Interval | None:
     """Return the mean square relative to that of another sampler whose trials have the same seeds.
 
     The interval is narrower where the trials of both samplers are correlated; otherwise they count as independent.
@@ -208,29 +209,36 @@ def ratio_of(sums: Array, baseline: Array, *, one_pixel: bool) -> Interval | Non
     ----------
     sums, baseline
         float64[B, COLUMNS]: the batches of the sampler and of the other one.
+    mse, other
+        Their mean squares, with the intervals of :func:`errors_of`.
     one_pixel
-        Whether the trials are estimates of the unit square; otherwise they are images.
+        Whether the trials are estimates of one pixel; otherwise they are images.
 
     Returns
     -------
-    None if one of the mean squares is 0 or not finite.
+    None if one of the mean squares is 0, not finite or unknown.
     """
-    mean, other = (float(np.nan_to_num(s[:, SQUARE].sum() / max(s[:, TRIALS].sum(), 1.0))) for s in (sums, baseline))
-    if not (mean > 0.0 and other > 0.0 and math.isfinite(mean / other)):
+    if not (mse.estimate and other.estimate and math.isfinite(mse.estimate / other.estimate)):
         return None
+    ratio = mse.estimate / other.estimate
+    if not (mse.low and mse.high and other.low and other.high):
+        return Interval(ratio)
+    apart = derived_interval(lambda one, another: one / another, [mse, other])
+    width = _width_of_correlated(sums, baseline, one_pixel=one_pixel)
+    ends = (ratio * ((end or 0.0) / ratio) ** width for end in (apart.low, apart.high))
+    return Interval(ratio, *ends)
+
+
+def _width_of_correlated(sums: Array, baseline: Array, *, one_pixel: bool) -> float:
+    """Return by which factor correlation narrows the interval of a ratio of mean squares; 1 if there is none."""
     mine, theirs = (influence(each, one_pixel=one_pixel) for each in (sums, baseline))
-    counts = [np.count_nonzero(s[:, TRIALS]) for s in (sums, baseline)]
-    if min(counts) < 2:
-        return Interval(mean / other)
-    squares = [float(np.sum(part * part)) * n / (n - 1) for part, n in zip((mine, theirs), counts, strict=True)]
-    error = math.sqrt(squares[0] + squares[1])
-    if len(mine) == len(theirs) and min(squares) > 0.0:
-        covariance = float(np.sum(mine * theirs)) * counts[0] / (counts[0] - 1)
-        correlation = covariance / math.sqrt(squares[0] * squares[1])
-        if correlation > student(counts[0] - 1) / math.sqrt(counts[0]):
-            error = math.sqrt(max(squares[0] + squares[1] - 2.0 * covariance, 0.0))
-    reach = min(student(min(counts) - 1) * error, 700.0)
-    return Interval(mean / other, mean / other * math.exp(-reach), mean / other * math.exp(reach))
+    squares = float(mine @ mine), float(theirs @ theirs)
+    if len(mine) != len(theirs) or len(mine) < 2 or min(squares) <= 0.0:
+        return 1.0
+    covariance = float(mine @ theirs)
+    if covariance <= math.sqrt(squares[0] * squares[1] / len(mine)) * student(len(mine) - 1):
+        return 1.0
+    return math.sqrt(max(1.0 - 2.0 * covariance / sum(squares), 0.0))
 
 
 def _square_root(interval: Interval) -> Interval:
