@@ -32,6 +32,10 @@ FEWEST = 16
 """Smallest number of independent sets, in the measured and in the expected variance, from which there is an interval.
 
 The spread of fewer is a guess."""
+COARSEST = 0.25
+"""Largest relative standard error with which there is an interval: that of a variance to which 16 rare sets contribute.
+
+If fewer do, sets of another kind are likely to be missing."""
 _SHIFTS = 64
 """Largest number of shifts of a set in a measurement, if sets take long to make."""
 
@@ -53,7 +57,8 @@ class Comparison:
         too few trials or realisations.
     verdict
         ``"agrees"``, ``"agrees within the tail's bound"``, ``"differs"``, ``"exact"`` if both are zero, ``"too few
-        trials"``, or ``"too few realizations"``: an interval needs 16 independent sets for each of both variances.
+        trials"``, or ``"too few realizations"``: an interval needs 16 independent sets for each of both variances,
+        and standard errors of at most a quarter of them.
     """
 
     count: int
@@ -187,9 +192,11 @@ def _compared(
     low = high = math.nan
     if predicted.variance <= 1.001 * zero and measured.variance <= 100.0 * zero:
         ratio, verdict = math.nan, "exact"
-    elif sets < FEWEST:
+    elif sets < FEWEST or measured.variance <= zero or measured.standard_error > COARSEST * measured.variance:
         verdict = "too few trials"
-    elif predicted.realizations < FEWEST and predicted.standard_error != 0.0:
+    elif predicted.standard_error != 0.0 and (
+        predicted.realizations < FEWEST or predicted.standard_error > COARSEST * predicted.variance
+    ):
         verdict = "too few realizations"
     else:
         reach = _reach(predicted, measured, sets) if min(predicted.variance, measured.variance) > zero else 0.0

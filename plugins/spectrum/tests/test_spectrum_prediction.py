@@ -198,6 +198,17 @@ def test_few_sets_are_not_judged(settings, verdict, capsys):
     assert predict("sobol+shift", "gaussian", 16, trials=1000, realizations=1, max_frequency=64).verdict == "agrees"
 
 
+def test_a_rare_shape_that_too_few_trials_hit_is_not_judged():
+    # Of 200 estimates with 16 samples, 0.09 hit the disk in the mean; of 4000, 1.8.
+    for trials in (200, 4000):
+        for seed in range(5):
+            row = predict(
+                "random", "disk:radius=0.003", 16, trials=trials, realizations=32, max_frequency=64, seed=seed
+            )
+            assert row.verdict == "too few trials"
+    assert predict("random", "disk:radius=0.1", 16, trials=4000, max_frequency=64).verdict.startswith("agrees")
+
+
 def test_few_sets_that_are_judged_differ_by_chance_as_often_as_is_said():
     # Of 192 cases 2 differ in the mean; 8 or more do in one of a thousand studies.
     differ = 0
