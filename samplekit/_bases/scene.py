@@ -24,6 +24,9 @@ class Scene:
         Bound of the error of ``exact`` in any pixel, beyond rounding; 0: exact.
     finite_variance
         Whether the square of the integrand has a finite integral; where not, a standard error means nothing.
+    finite_kurtosis
+        Whether the fourth power of the integrand has a finite integral; where not, squared errors have no standard
+        error.
     value_range
         A lower and an upper bound of the integrand over the unit square; None: not known. Where no sample found what
         makes up an error, it is all that bounds the error.
@@ -39,6 +42,7 @@ class Scene:
 
     reference_error: float = 0.0
     finite_variance: bool = True
+    finite_kurtosis: bool = True
     value_range: tuple[float, float] | None = None
 
     def notes(self) -> list[str]:

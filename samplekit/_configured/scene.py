@@ -35,8 +35,8 @@ class ConfiguredScene(Configured):
         The same numbers without the purposes, and their sum.
     at_centre
         Every pixel is seen at its centre (``pixel-filter=center``): there are no pixel dimensions.
-    finite_variance
-        Whether a standard error of estimates means anything; see :class:`Scene`.
+    finite_variance, finite_kurtosis
+        Whether a standard error of estimates, and one of their squared errors, means anything; see :class:`Scene`.
 
     Examples
     --------
@@ -65,6 +65,7 @@ class ConfiguredScene(Configured):
         self.blocks = tuple(self.needs.values())
         self.dims = sum(self.blocks)
         self.finite_variance = bool(self._scene.finite_variance)
+        self.finite_kurtosis = self.finite_variance and bool(self._scene.finite_kurtosis)
         self.value_range: tuple[float, float] | None = self._ask(
             "tell the range of its values",
             lambda: self._scene.value_range,

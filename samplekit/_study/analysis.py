@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from samplekit._study.errors import FEW_TRIALS, INFINITE_VARIANCE, errors_of, influence, ratio_of
+from samplekit._study.errors import FEW_TRIALS, HEAVY_TAILS, INFINITE_VARIANCE, errors_of, influence, ratio_of
 from samplekit._study.fit import fit_line, theoretical_exponent
 from samplekit._study.intervals import LEAST_TRIALS, derived_interval
 from samplekit._study.results import Fit, Interval, LeftOut, Row, Seconds, Spread, Times
@@ -92,7 +92,7 @@ class Analysis:
             all_rows = zip(self.combinations, rows, strict=True)
             own = [(self._sums[each], row) for each, row in all_rows if each.pair == pair]
             used = [(sums, row) for sums, row in own if row.fitted]
-            one_pixel = self._request.one_pixel
+            one_pixel = self._sampled(pair[0]) == 1
             influences = [
                 influence(sums, one_pixel=one_pixel) if np.count_nonzero(sums[:, TRIALS]) > 1 else None
                 for sums, _ in used
@@ -118,9 +118,11 @@ class Analysis:
         return errors_of(
             self._sums[combination],
             one_pixel=self._request.one_pixel,
+            sampled=self._sampled(combination.scene),
             random=spec.randomized,
             unbiased=spec.unbiased,
             finite_variance=scene.finite_variance,
+            finite_kurtosis=scene.finite_kurtosis,
             floor=_floor(reference),
             largest=largest,
         )
@@ -177,12 +179,13 @@ class Analysis:
         doubt = "" if apart else "; the intervals of the two times overlap"
         return [f"takes less time than with {slower.count} sample{'' if slower.count == 1 else 's'}{doubt}"]
 
+    def _sampled(self, scene: str) -> int:
+        """Return the number of pixels that are sampled: those that are not constant, and 1 for the unit square."""
+        return 1 if self._request.one_pixel else int(self._resources.pixels(scene, self._request.size).sampled.size)
+
     def _samples(self, combination: Combination) -> int:
         """Return the number of samples of one trial."""
-        if self._request.one_pixel:
-            return combination.count
-        pixels = self._resources.pixels(combination.scene, self._request.size)
-        return int(pixels.sampled.size) * combination.count
+        return self._sampled(combination.scene) * combination.count
 
     def _why_left_out(self, combination: Combination, no_interval: str, mse: float | None, floor: float) -> str:
         """Return why the fit does not use a row; empty if it does."""
@@ -208,8 +211,9 @@ class Analysis:
             return f"all trials gave one value, whose mse is {error:.3g}: nothing tells the errors of the next ones"
         return {
             "few hits": "too few trials found what makes up the error",
-            FEW_TRIALS: f"an interval needs {LEAST_TRIALS} trials of one pixel, or 2 of an image",
+            FEW_TRIALS: f"an interval needs two trials, and {LEAST_TRIALS} estimates of pixels that are not constant",
             INFINITE_VARIANCE: "the mean of the squares does not settle",
+            HEAVY_TAILS: "squared errors have an infinite variance, so their mean has no standard error",
         }[reason]
 
     def _ratio(self, combination: Combination, errors: Mapping[Combination, dict[str, Any]]) -> Interval | None:
@@ -219,9 +223,9 @@ class Analysis:
             if (other.sampler, other.scene, other.count) == first:
                 if other is combination:
                     return Interval(1.0, 1.0, 1.0)
-                ratio = ratio_of(self._sums[combination], self._sums[other], one_pixel=self._request.one_pixel)
-                known = not (errors[combination]["no_interval"] or errors[other]["no_interval"])
-                return ratio if known or ratio is None else Interval(ratio.estimate)
+                mine, theirs = errors[combination]["mse"], errors[other]["mse"]
+                one_pixel = self._sampled(combination.scene) == 1
+                return ratio_of(self._sums[combination], self._sums[other], mine, theirs, one_pixel=one_pixel)
         return None
 
     def _times(self, combination: Combination) -> Times | None:

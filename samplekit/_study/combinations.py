@@ -128,7 +128,7 @@ def _combination(
         trials = spec.period
         notes.append(f"has only {spec.period} sets, so only {spec.period} trials were made")
     if not spec.unbiased:
-        notes.append("biased: its mean over realisations is not the integral")
+        notes.append("biased: its mean over realisations need not be the integral")
     return Combination(
         scene.text,
         sampler.text,

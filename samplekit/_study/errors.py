@@ -10,6 +10,7 @@ import numpy as np
 from samplekit._integrate.hits import describe_hits, effective_hits
 from samplekit._study.intervals import (
     LEAST_TRIALS,
+    derived_interval,
     far_student,
     mean_and_error,
     mean_interval,
@@ -24,16 +25,20 @@ _ENOUGH_HITS = 16.0
 """Effective number of trials from which their errors have an interval; or a fifth of them, if that is less.
 
 With fewer, rare errors of another size are likely to be missing."""
-FEW_TRIALS, INFINITE_VARIANCE = "few trials", "infinite variance"
+_LEAST_PAIRS = 4
+"""Smallest number of pairs of images from which the squared bias has an interval."""
+FEW_TRIALS, INFINITE_VARIANCE, HEAVY_TAILS = "few trials", "infinite variance", "heavy tails"
 
 
 def errors_of(
     sums: Array,
     *,
     one_pixel: bool,
+    sampled: int = LEAST_TRIALS,
     random: bool = True,
     unbiased: bool = True,
     finite_variance: bool = True,
+    finite_kurtosis: bool = True,
     floor: float = 0.0,
     largest: float | None = None,
 ) -> dict[str, Any]:
@@ -51,10 +56,12 @@ def errors_of(
         float64[B, COLUMNS]: its batches in the order of their trials.
     one_pixel
         Whether the trials are estimates of the unit square; otherwise they are images.
+    sampled
+        Number of pixels of an image that are not constant. If it is 1, its errors scatter as those of one pixel.
     random, unbiased
         Whether the sampler is random, and whether its mean over realisations is the integral.
-    finite_variance
-        Whether the values of the scene have a finite variance.
+    finite_variance, finite_kurtosis
+        Whether the squares, and the fourth powers, of the values of the scene have a finite mean.
     floor
         Largest error that rounding and the reference may cause in a pixel.
     largest
@@ -63,23 +70,35 @@ def errors_of(
     trials = sums[:, TRIALS]
     number = int(trials.sum())
     pairs = _whole_pairs(sums)
-    mse = positive_interval(sums[:, SQUARE], trials, one_pixel=one_pixel, missed=_missed(sums) if unbiased else 1.0)
+    single = one_pixel or sampled == 1
+    missed = _missed(sums) if unbiased else 1.0
+    mse = positive_interval(sums[:, SQUARE], trials, one_pixel=single, missed=missed)
+    bias = mean_interval(sums[:, ERROR], trials)
     variance = _variance_of_pixel(sums) if one_pixel else _variance_from_pairs(pairs)
+    if unbiased and variance.estimate is not None and mse.low is not None and mse.high is not None:
+        # The variance of an unbiased estimate is its mean squared error, whose interval uses the known mean.
+        variance = Interval(variance.estimate, min(mse.low, variance.estimate), max(mse.high, variance.estimate))
+    by_pairs = mean_interval(pairs[:, PRODUCT], pairs[:, PAIRS])
+    if np.count_nonzero(pairs[:, PAIRS]) < _LEAST_PAIRS:
+        by_pairs = Interval(by_pairs.estimate)
     found: dict[str, Any] = {
         "mse": mse,
-        "bias": mean_interval(sums[:, ERROR], trials),
+        "bias": bias,
         "variance": variance,
-        "squared_bias": _difference(mse, variance, mean_interval(pairs[:, PRODUCT], pairs[:, PAIRS])),
-        "blurred_mse": None if one_pixel else positive_interval(sums[:, BLURRED], trials, one_pixel=False),
+        "squared_bias": _squared_bias(mse, variance, bias) if one_pixel else _difference(mse, variance, by_pairs),
+        "blurred_mse": None
+        if one_pixel
+        else positive_interval(sums[:, BLURRED], trials, one_pixel=single, missed=missed),
     }
     no_interval = ""
     if not random:
         found |= {"variance": Interval(0.0), "squared_bias": mse}
         found = {name: each and Interval(each.estimate, each.estimate, each.estimate) for name, each in found.items()}
     elif number:
-        no_interval = "" if finite_variance else INFINITE_VARIANCE
-        no_interval = no_interval or _judge_hits(sums, one_pixel=one_pixel, unbiased=unbiased, floor=floor)
-        if not no_interval and number < (LEAST_TRIALS if one_pixel else 2):
+        no_interval = INFINITE_VARIANCE if not finite_variance else "" if finite_kurtosis else HEAVY_TAILS
+        no_interval = no_interval or _judge_hits(sums, one_pixel=single, unbiased=unbiased, floor=floor)
+        estimates = number if one_pixel else number * sampled
+        if not no_interval and (number < 2 or 0 < estimates < LEAST_TRIALS):
             no_interval = FEW_TRIALS
         if no_interval:
             found = {name: each and Interval(each.estimate) for name, each in found.items()}
@@ -142,6 +161,17 @@ def _missed(sums: Array) -> float:
     return max(1.0, 1.0 - slope * error * total / square)
 
 
+def _squared_bias(mse: Interval, variance: Interval, bias: Interval) -> Interval:
+    """Return mse - variance of one pixel; the ends are the least and the largest square of the interval of the bias."""
+    if mse.estimate is None or variance.estimate is None:
+        return Interval(None)
+    difference = mse.estimate - variance.estimate
+    if bias.low is None or bias.high is None:
+        return Interval(difference)
+    squares = bias.low * bias.low, bias.high * bias.high
+    return Interval(difference, min(difference, 0.0 if bias.low <= 0.0 <= bias.high else min(squares)), max(squares))
+
+
 def _difference(mse: Interval, variance: Interval, by_pairs: Interval) -> Interval:
     """Return mse - variance, with the width of the interval of the products of pairs, which have the same mean."""
     if mse.estimate is None or variance.estimate is None:
@@ -170,7 +200,7 @@ def influence(sums: Array, *, one_pixel: bool) -> Array:
     return deviations
 
 
-def ratio_of(sums: Array, baseline: Array, *, one_pixel: bool) -> Interval | None:
+def ratio_of(sums: Array, baseline: Array, mse: Interval, other: Interval, *, one_pixel: bool) -> Interval | None:
     """Return the mean square relative to that of another sampler whose trials have the same seeds.
 
     The interval is narrower where the trials of both samplers are correlated; otherwise they count as independent.
@@ -179,29 +209,36 @@ def ratio_of(sums: Array, baseline: Array, *, one_pixel: bool) -> Interval | Non
     ----------
     sums, baseline
         float64[B, COLUMNS]: the batches of the sampler and of the other one.
+    mse, other
+        Their mean squares, with the intervals of :func:`errors_of`.
     one_pixel
-        Whether the trials are estimates of the unit square; otherwise they are images.
+        Whether the trials are estimates of one pixel; otherwise they are images.
 
     Returns
     -------
-    None if one of the mean squares is 0 or not finite.
+    None if one of the mean squares is 0, not finite or unknown.
     """
-    mean, other = (float(np.nan_to_num(s[:, SQUARE].sum() / max(s[:, TRIALS].sum(), 1.0))) for s in (sums, baseline))
-    if not (mean > 0.0 and other > 0.0 and math.isfinite(mean / other)):
+    if not (mse.estimate and other.estimate and math.isfinite(mse.estimate / other.estimate)):
         return None
+    ratio = mse.estimate / other.estimate
+    if not (mse.low and mse.high and other.low and other.high):
+        return Interval(ratio)
+    apart = derived_interval(lambda one, another: one / another, [mse, other])
+    width = _width_of_correlated(sums, baseline, one_pixel=one_pixel)
+    ends = (ratio * ((end or 0.0) / ratio) ** width for end in (apart.low, apart.high))
+    return Interval(ratio, *ends)
+
+
+def _width_of_correlated(sums: Array, baseline: Array, *, one_pixel: bool) -> float:
+    """Return by which factor correlation narrows the interval of a ratio of mean squares; 1 if there is none."""
     mine, theirs = (influence(each, one_pixel=one_pixel) for each in (sums, baseline))
-    counts = [np.count_nonzero(s[:, TRIALS]) for s in (sums, baseline)]
-    if min(counts) < 2:
-        return Interval(mean / other)
-    squares = [float(np.sum(part * part)) * n / (n - 1) for part, n in zip((mine, theirs), counts, strict=True)]
-    error = math.sqrt(squares[0] + squares[1])
-    if len(mine) == len(theirs) and min(squares) > 0.0:
-        covariance = float(np.sum(mine * theirs)) * counts[0] / (counts[0] - 1)
-        correlation = covariance / math.sqrt(squares[0] * squares[1])
-        if correlation > student(counts[0] - 1) / math.sqrt(counts[0]):
-            error = math.sqrt(max(squares[0] + squares[1] - 2.0 * covariance, 0.0))
-    reach = min(student(min(counts) - 1) * error, 700.0)
-    return Interval(mean / other, mean / other * math.exp(-reach), mean / other * math.exp(reach))
+    squares = float(mine @ mine), float(theirs @ theirs)
+    if len(mine) != len(theirs) or len(mine) < 2 or min(squares) <= 0.0:
+        return 1.0
+    covariance = float(mine @ theirs)
+    if covariance <= math.sqrt(squares[0] * squares[1] / len(mine)) * student(len(mine) - 1):
+        return 1.0
+    return math.sqrt(max(1.0 - 2.0 * covariance / sum(squares), 0.0))
 
 
 def _square_root(interval: Interval) -> Interval:

@@ -113,7 +113,8 @@ class _Need:
         if low is None:
             self.count = Interval(None, float(last), None)
         else:
-            inside = estimate if estimate is not None and estimate > first else None
+            # Reached at the first row of which something is known, it may have been reached before.
+            inside = estimate if estimate is not None and estimate > known[0].count else None
             self.count = Interval(inside, low if low > first else None, high)
         self.pixels = rows[0].samples / rows[0].count
         self._own = [(row.count, _without(row.time, cost * 1e-9 * row.samples)) for row in rows if row.time is not None]

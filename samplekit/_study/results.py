@@ -127,19 +127,20 @@ class Row:
         that their errors go together.
     no_interval
         Why errors have no interval; empty if they have. ``"no hits"``: all trials gave one value, and it is not the
-        mean of the scene. ``"few hits"``: too few trials found what makes up the error. ``"infinite variance"``: the
-        scene says so. ``"few trials"``: fewer than 32 of one pixel, or one image. No fit and no ranking uses rows of
-        the first three kinds.
+        mean of the scene. ``"few hits"``: too few trials found what makes up the error. ``"infinite variance"``
+        or ``"heavy tails"``: the scene says that its square, or its fourth power, has no finite integral.
+        ``"few trials"``: one, or fewer than 32 estimates of pixels that are not constant. No fit uses such rows, and no
+        ranking those of the other kinds.
     mse, rmse
         Mean over trials and pixels of the squared error, and its square root. Without hits there is no estimate, and
         ``high`` is a one-sided 95 % bound if the scene declares the range of its values.
     bias
         Mean over trials and pixels of the signed error.
     variance
-        Mean over pixels of the variance between trials.
+        Mean over pixels of the variance between trials. The interval is that of ``mse`` if the sampler is unbiased.
     squared_bias
         mse - variance, which estimates the mean over pixels of the square of each pixel's own bias. It may come out
-        below 0 if there is no bias.
+        below 0 if there is no bias. Images have an interval from 8 trials on.
     blurred_mse
         Mean square of the error after a Gaussian blur of 2 pixels; None for one pixel.
     efficiency

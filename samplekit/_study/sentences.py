@@ -116,7 +116,8 @@ def _crossing_text(crossing: Crossing) -> str:
             for lead in crossing.leads
             if lead.sampler == sampler
         ]
-        parts.append(f"{sampler} has the smaller error {listed(ranges, 'and')} samples")
+        samples = "sample" if ranges[-1] == "at 1" else "samples"
+        parts.append(f"{sampler} has the smaller error {listed(ranges, 'and')} {samples}")
     return ", ".join(parts)
 
 
@@ -135,13 +136,13 @@ def _sampler_text(need: ToTarget, fit: Fit | None) -> str:
 def _samples_in_words(count: Interval) -> str:
     """Return what a sampler needs: the estimate and its interval, or the bound that is known."""
     if count.estimate is not None:
-        return f"needs {_number(count.estimate)} samples{_ends(count, _number)}"
+        return f"needs {_samples(count.estimate)}{_ends(count, _number)}"
     if count.low is not None and count.high is not None:
-        return f"needs between {_number(count.low)} and {_number(count.high)} samples"
+        return f"needs between {_number(count.low)} and {_samples(count.high)}"
     if count.high is not None:
-        return f"needs at most {_number(count.high)} samples"
+        return f"needs at most {_samples(count.high)}"
     if count.low is not None:
-        return f"needs more than {_number(count.low)} samples"
+        return f"needs more than {_samples(count.low)}"
     return "these rows do not tell how many samples it needs"
 
 
@@ -153,6 +154,11 @@ def _ends(interval: Interval, write: Callable[[float], str]) -> str:
     if high is not None:
         return f" (at most {write(high)})"
     return " (without an interval)" if low is None else f" (at least {write(low)})"
+
+
+def _samples(number: float) -> str:
+    """Return a number of samples, such as ``1 sample`` or ``16 samples``."""
+    return f"{_number(number)} sample{'' if _number(number) == '1' else 's'}"
 
 
 def _number(value: float) -> str:

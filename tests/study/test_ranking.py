@@ -93,6 +93,9 @@ def test_rows_without_an_interval_bound_nothing():
     hidden = [row("rare", 4, Interval(None, None, 0.3), no_interval="no hits"), *CHEAP[1:]]
     assert needs_of(hidden, 0.02)["rare"].count.low is None
     assert not any(may_be_least([Interval(3.0), Interval(5.0)]))
+    # All that is known of a target that the first row with an estimate reaches is that so many samples are enough.
+    late = [row("cheap", n, Interval(1 / n), no_interval="few hits") for n in (4, 16)]
+    assert needs_of([*late, *CHEAP[2:]], 0.02)["cheap"].count == Interval(None, None, 64.0)
 
 
 def test_a_sampler_that_is_not_random_has_no_spread():

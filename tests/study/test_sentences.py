@@ -55,6 +55,8 @@ def test_those_whose_intervals_overlap_are_named_together():
         (Interval(27.2, 20.0), "needs 27.2 samples (at least 20)"),
         (Interval(27.2, None, 30.0), "needs 27.2 samples (at most 30)"),
         (Interval(27.2, 27.2, 27.2), "needs 27.2 samples"),
+        (Interval(None, None, 1.0), "needs at most 1 sample"),
+        (Interval(None, 1.0), "needs more than 1 sample"),
         (Interval(None, 20.0, 30.0), "needs between 20 and 30 samples"),
         (OPEN, "these rows do not tell how many samples it needs"),
     ],
@@ -69,6 +71,8 @@ def test_without_intervals_nobody_wins():
 
 
 def test_each_pair_has_one_sentence_about_where_either_is_better():
+    leads = [Lead("r2", 1, 1), Lead("jittered", 2, 4)]
+    assert "r2 has the smaller error at 1 sample, " in said(crossings=[Crossing("disk", ("r2", "jittered"), leads)])[1]
     leads = [Lead("jittered", 16, 32), Lead("sobol", 64, 256), Lead("jittered", 4096, 4096)]
     _, second = said(crossings=[Crossing("disk", ("jittered", "sobol"), leads)])
     assert second == (

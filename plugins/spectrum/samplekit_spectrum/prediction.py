@@ -26,8 +26,16 @@ if TYPE_CHECKING:
 
     from samplekit_spectrum.integrands.integrand import Integrand
 
-_QUANTILE = 2.5758293035489004
-"""Half the width of an interval of 99 %, in standard errors."""
+LEVEL = 0.99
+"""Confidence level of the interval of the ratio."""
+FEWEST = 16
+"""Smallest number of independent sets, in the measured and in the expected variance, from which there is an interval.
+
+The spread of fewer is a guess."""
+COARSEST = 0.25
+"""Largest relative standard error with which there is an interval: that of a variance to which 16 rare sets contribute.
+
+If fewer do, sets of another kind are likely to be missing."""
 _SHIFTS = 64
 """Largest number of shifts of a set in a measurement, if sets take long to make."""
 
@@ -45,9 +53,12 @@ class Comparison:
     native
         The measured variance without the shift; None if the shift changes nothing, or if it was not requested.
     ratio, ratio_low, ratio_high
-        Measured over predicted variance, with its interval of 99 %; NaN if both are zero.
+        Measured over predicted variance, with its interval of 99 %; NaN if both are zero. The ends are NaN if there are
+        too few trials or realisations.
     verdict
-        ``"agrees"``, ``"agrees within the tail's bound"``, ``"differs"``, or ``"exact"`` if both are zero.
+        ``"agrees"``, ``"agrees within the tail's bound"``, ``"differs"``, ``"exact"`` if both are zero, ``"too few
+        trials"``, or ``"too few realizations"``: an interval needs 16 independent sets for each of both variances,
+        and standard errors of at most a quarter of them.
     """
 
     count: int
@@ -139,7 +150,7 @@ def predict(
     if native and not is_homogeneous(chosen):
         fewer = trials if shifts == 1 else shifted.trials // shifts
         plain = measured(chosen, "measuring without the shift", fewer, 1)
-    return _compared(int(count), integrand, predicted, shifted, plain)
+    return _compared(int(count), integrand, predicted, shifted, plain, sets=shifted.trials // shifts)
 
 
 def check_settings(trials: int | None, realizations: int | None, max_frequency: int | None, seed: int) -> None:
@@ -165,25 +176,50 @@ def _shifts(trials: int) -> int:
 
 
 def _compared(
-    count: int, integrand: Integrand, predicted: Predicted, measured: Measurement, native: Measurement | None
+    count: int,
+    integrand: Integrand,
+    predicted: Predicted,
+    measured: Measurement,
+    native: Measurement | None,
+    *,
+    sets: int,
 ) -> Comparison:
+    """Compare both variances; ``sets`` is the number of independent sets in the measured one."""
     zero = integrand.energy * ZERO**2
     ratio = measured.variance / predicted.variance if predicted.variance > 0.0 else math.inf
-    relative = 0.0
-    if min(predicted.variance, measured.variance) > zero:
-        relative = math.hypot(
-            measured.standard_error / measured.variance, predicted.standard_error / predicted.variance
-        )
-    low, high = ratio * math.exp(-_QUANTILE * relative), ratio * math.exp(_QUANTILE * relative)
     least = predicted.variance - predicted.tail
     most = least + predicted.tail_bound
+    low = high = math.nan
     if predicted.variance <= 1.001 * zero and measured.variance <= 100.0 * zero:
-        ratio = low = high = math.nan
-        verdict = "exact"
-    elif low <= 1.0 <= high:
-        verdict = "agrees"
-    elif low * predicted.variance <= most and high * predicted.variance >= least:
-        verdict = "agrees within the tail's bound"
+        ratio, verdict = math.nan, "exact"
+    elif sets < FEWEST or measured.variance <= zero or measured.standard_error > COARSEST * measured.variance:
+        verdict = "too few trials"
+    elif predicted.standard_error != 0.0 and (
+        predicted.realizations < FEWEST or predicted.standard_error > COARSEST * predicted.variance
+    ):
+        verdict = "too few realizations"
     else:
-        verdict = "differs"
+        reach = _reach(predicted, measured, sets) if min(predicted.variance, measured.variance) > zero else 0.0
+        low, high = ratio * math.exp(-reach), ratio * math.exp(reach)
+        if low <= 1.0 <= high:
+            verdict = "agrees"
+        elif low * predicted.variance <= most and high * predicted.variance >= least:
+            verdict = "agrees within the tail's bound"
+        else:
+            verdict = "differs"
     return Comparison(count, predicted, measured, native, ratio, low, high, verdict)
+
+
+def _reach(predicted: Predicted, measured: Measurement, sets: int) -> float:
+    """Return half the width of the interval of the ratio's logarithm, by Welch's t."""
+    from scipy.special import stdtrit
+
+    parts = [
+        ((measured.standard_error / measured.variance) ** 2, sets - 1),
+        ((predicted.standard_error / predicted.variance) ** 2, max(predicted.realizations - 1, 1)),
+    ]
+    total = sum(square for square, _ in parts)
+    if total == 0.0:
+        return 0.0
+    freedom = total**2 / sum(square**2 / own for square, own in parts)
+    return float(stdtrit(freedom, 0.5 + 0.5 * LEVEL)) * math.sqrt(total)

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from samplekit_spectrum.radial import Radial
     from samplekit_spectrum.spectrum import Spectrum
 
-_INTERVAL = 2.576
+_LEVEL = 0.99
 _CURVE, _GUIDE, _GRID = COLOURS[1], "#6a7380", "#e3e6eb"
 _ROOTS = {1: "$N$", 2: "$N^{1/2}$", 3: "$N^{1/3}$"}
 
@@ -129,7 +129,7 @@ class RadialDisplay(Display):
     def _draw_power(self, ax: Axes) -> None:
         x = self.radial.frequency
         power = self.scale * self.radial.power
-        error = self.scale * np.nan_to_num(self.radial.standard_error) * _INTERVAL
+        error = self.scale * np.nan_to_num(self.radial.standard_error) * self._standard_errors()
         for frequency, word in self._marks:
             if 0.0 < frequency < x[-1]:
                 ax.axvline(frequency, color=_GUIDE, linewidth=0.7, linestyle="--")
@@ -142,6 +142,13 @@ class RadialDisplay(Display):
         _curve(ax, x, power)
         ax.set_ylim(0.0, max(1.2, 1.05 * float((power + error).max(initial=0.0))))
         ax.set_ylabel(self._labels[0])
+
+    def _standard_errors(self) -> float:
+        """Return half the width of the interval in standard errors, by Student's t over the realisations."""
+        from scipy.special import stdtrit
+
+        freedom = self._realizations - 1 if self._realizations > 1 else math.inf
+        return float(stdtrit(freedom, 0.5 + 0.5 * _LEVEL))
 
     def _draw_anisotropy(self, ax: Axes) -> None:
         anisotropy = self.radial.anisotropy

@@ -41,7 +41,10 @@ def listed_csv(spectra: Sequence[Spectrum]) -> str:
 
 
 def _csv(head: list[str], spectra: Sequence[Spectrum | ErrorSpectrum], tables: Sequence[Sequence[NDArray[Any]]]) -> str:
-    """Return the columns of each spectrum's table as CSV, after its projection where there are several spectra."""
+    """Return the columns of each spectrum's table as CSV, after its projection where there are several spectra.
+
+    Numbers that are not finite, such as the standard error of a single realisation, are empty.
+    """
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     several = len(spectra) > 1
@@ -49,7 +52,7 @@ def _csv(head: list[str], spectra: Sequence[Spectrum | ErrorSpectrum], tables: S
     for spectrum, columns in zip(spectra, tables, strict=True):
         project = ["-".join(map(str, getattr(spectrum, "project", ())))] if several else []
         for row in zip(*(column.tolist() for column in columns), strict=True):
-            writer.writerow([*project, *row])
+            writer.writerow([*project, *(value if math.isfinite(value) else None for value in row)])
     return text.getvalue()
 
 
@@ -61,7 +64,7 @@ def listed_html(spectrum: Spectrum) -> str:
     """Return the power at listed frequencies as an HTML table for a notebook."""
     head, *rows = csv.reader(io.StringIO(listed_csv([spectrum])))
     lines = ["".join(f"<th>{html.escape(word)}</th>" for word in head)]
-    lines += ["".join(f"<td>{float(cell):.10g}</td>" for cell in row) for row in rows]
+    lines += ["".join(f"<td>{cell and f'{float(cell):.10g}'}</td>" for cell in row) for row in rows]
     return "<table>" + "".join(f"<tr>{line}</tr>" for line in lines) + "</table>"
 
 
@@ -75,7 +78,7 @@ def spectrum_lines(spectrum: Spectrum) -> list[str]:
         lines.append(f"  {'frequency':<28}{'N power':>12}{'+-':>12}")
         errors = spectrum.count * spectrum.standard_error
         for vector, power, error in zip(_vectors(spectrum), spectrum.normalized, errors, strict=True):
-            lines.append(f"  {_vector(vector):<28}{power:>12.5g}{error:>12.2g}")
+            lines.append(f"  {_vector(vector):<28}{power:>12.5g}{_known(error, '.2g'):>12}")
         return lines
     radial = spectrum.radial
     lines.append(f"  {'ring':<10}{'N power':>12}{'+-':>12}{'anisotropy':>14}")
@@ -84,9 +87,14 @@ def spectrum_lines(spectrum: Spectrum) -> list[str]:
     steps = np.arange(0.0, math.log2(last) + 0.75, 0.75)
     for ring in sorted({min(last, round(2**step)) for step in steps}):
         power, error = spectrum.count * radial.power[ring - 1], spectrum.count * radial.standard_error[ring - 1]
-        decibels = f"{radial.anisotropy[ring - 1]:.1f} dB"
-        lines.append(f"  {radial.frequency[ring - 1]:<10.6g}{power:>12.5g}{error:>12.2g}{decibels:>14}")
+        decibels = f"{_known(radial.anisotropy[ring - 1], '.1f')} dB"
+        lines.append(f"  {radial.frequency[ring - 1]:<10.6g}{power:>12.5g}{_known(error, '.2g'):>12}{decibels:>14}")
     return lines
+
+
+def _known(value: float, digits: str) -> str:
+    """Return a number, or a dash for one that is not finite: a single realisation has no standard error."""
+    return f"{value:{digits}}" if math.isfinite(value) else "-"
 
 
 def _bias_text(bias: Bias, *, randomized: bool) -> str:

@@ -48,7 +48,8 @@ class Predicted:
     Attributes
     ----------
     variance, standard_error
-        The sum, including the estimate of the tail; and its standard error from the number of realisations.
+        The sum, including the estimate of the tail; and its standard error, which is 0 if all sets have the same power,
+        and NaN for a single realisation otherwise.
     tail, tail_bound
         The part of the variance beyond the largest frequency: an estimate, and an upper bound.
     bound
@@ -168,6 +169,8 @@ def _with_tail(source: Source, integrand: Integrand, strata: list[Stratum], *, f
     """Add the tail to the sum over all strata."""
     summed = _summed(strata)
     mean, error = mean_and_error(strata)
+    if not fixed and strata[0].realizations < 2:
+        error = math.nan
     missing = max(integrand.variance - sum(region.energy for region, _ in summed), 0.0)
     # A tiny difference of the energies is rounding, not a tail.
     missing = missing if missing > 1e-12 * integrand.energy else 0.0

@@ -98,6 +98,17 @@ def test_tables(here, capsys):
     assert "native" in shown[1]
 
 
+def test_what_one_realization_does_not_tell_is_left_out(here, capsys):
+    for more in (["-f", "8"], ["--frequencies", "1,0;0,1"]):
+        assert run(["spectrum", "-s", "jittered", "-n", "16", "-r", "1", *more, "--output", "one.exr"]) == 0
+        out = capsys.readouterr().out
+        assert "1 realization, " in out
+        assert not {"nan", "inf"} & set(out.replace("dB", "").split())
+        for path in here.glob("one*.csv"):
+            assert "nan" not in path.read_text()
+            assert "inf" not in path.read_text()
+
+
 def test_of_two_zeros_there_is_no_ratio(here, capsys):
     assert run(["predict", "-s", "sobol+xor", "--scene", "step", "-n", "16", "--trials", "100"]) == 0
     row = capsys.readouterr().out.splitlines()[-1].split()

@@ -122,7 +122,8 @@ def test_the_radial_mean_is_a_curve_with_its_interval():
     assert np.array_equal(curve.get_xdata(), radial.frequency)
     assert np.array_equal(curve.get_ydata(), 64 * radial.power)
     edges = display.ax_.collections[0].get_paths()[0].vertices[:, 1]
-    assert edges.max() == pytest.approx((64 * (radial.power + 2.576 * radial.standard_error)).max())
+    # 3.3554 is the quantile of Student's t at 99.5 % for 9 realisations.
+    assert edges.max() == pytest.approx((64 * (radial.power + 3.3554 * radial.standard_error)).max(), rel=1e-4)
     lower = display.axes_[1]
     curve = next(line for line in lower.lines if len(line.get_xdata()) == 16)
     assert np.array_equal(curve.get_ydata(), radial.anisotropy)

@@ -180,6 +180,48 @@ def test_wrong_settings_are_refused_before_anything_is_printed(setting, capsys):
     assert capsys.readouterr().out == ""
 
 
+@pytest.mark.parametrize(
+    ("settings", "verdict"),
+    [
+        ({"trials": 15}, "too few trials"),
+        ({"trials": 1000, "realizations": 1}, "too few realizations"),
+        ({"trials": 1000, "realizations": 15}, "too few realizations"),
+    ],
+)
+def test_few_sets_are_not_judged(settings, verdict, capsys):
+    row = predict("jittered", "gaussian", 16, native=False, max_frequency=16, **settings)
+    assert (row.verdict, math.isnan(row.ratio_low), math.isnan(row.ratio_high)) == (verdict, True, True)
+    words = [f"--{name}={value}" for name, value in settings.items()]
+    assert run(["predict", "-s", "jittered", "--scene", "gaussian", "-n", "16", "-f", "16", *words]) == 0
+    assert "nan" not in capsys.readouterr().out
+    # Sets that all have the same power need one spectrum.
+    assert predict("sobol+shift", "gaussian", 16, trials=1000, realizations=1, max_frequency=64).verdict == "agrees"
+
+
+def test_a_rare_shape_that_too_few_trials_hit_is_not_judged():
+    # Of 200 estimates with 16 samples, 0.09 hit the disk in the mean; of 4000, 1.8.
+    for trials in (200, 4000):
+        for seed in range(5):
+            row = predict(
+                "random", "disk:radius=0.003", 16, trials=trials, realizations=32, max_frequency=64, seed=seed
+            )
+            assert row.verdict == "too few trials"
+    assert predict("random", "disk:radius=0.1", 16, trials=4000, max_frequency=64).verdict.startswith("agrees")
+
+
+def test_few_sets_that_are_judged_differ_by_chance_as_often_as_is_said():
+    # Of 192 cases 2 differ in the mean; 8 or more do in one of a thousand studies.
+    differ = 0
+    for sampler in ("jittered", "sobol+owen", "z-sobol", "r2"):
+        for scene, count in (("gaussian", 16), ("disk", 16)):
+            for seed in range(24):
+                row = predict(
+                    sampler, scene, count, trials=64, realizations=16, max_frequency=16, native=False, seed=seed
+                )
+                differ += row.verdict == "differs"
+    assert differ < 8
+
+
 def test_the_standard_error_of_a_variance():
     """It is sqrt(2 / T) of the variance for a normal sample, and nearly 0 for a coin with equal sides."""
     rng = np.random.default_rng(3)

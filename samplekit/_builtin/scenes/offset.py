@@ -44,6 +44,7 @@ class Offset(Scene):
             )
         self.pedestal = float(pedestal)
         self.finite_variance = self.scene.finite_variance
+        self.finite_kurtosis = self.scene.finite_kurtosis
         if self.scene.value_range is not None:
             least, most = self.scene.value_range
             self.value_range = (least + self.pedestal, most + self.pedestal)

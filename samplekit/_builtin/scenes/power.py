@@ -47,12 +47,13 @@ class Power(Scene):
     Parameters
     ----------
     a
-        The exponent, 0 to 0.99. The variance is finite for a < 0.5.
+        The exponent, 0 to 0.99. The variance is finite for a < 0.5, and that of squared errors for a < 0.25.
     """
 
     def __init__(self, a: float = 0.25) -> None:
         self.a = float(a)
         self.finite_variance = self.a < 0.5
+        self.finite_kurtosis = self.a < 0.25
 
     def notes(self) -> list[str]:
         """Return a warning if the variance is infinite."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -61,7 +62,7 @@ def predict(
     from samplekit.commands import Stages, parse_count, parse_counts, parse_seed
     from samplekit_spectrum.homogenized import is_homogeneous
     from samplekit_spectrum.integrands import integrand_of
-    from samplekit_spectrum.prediction import check_settings
+    from samplekit_spectrum.prediction import LEVEL, check_settings
     from samplekit_spectrum.prediction import predict as predict_one
 
     counts = parse_counts(count, "count")
@@ -100,7 +101,7 @@ def predict(
             "sampler": chosen.text,
             "scene": integrated.text,
             "homogenized": True,
-            "confidence": 0.99,
+            "confidence": LEVEL,
             "seed": settings["seed"],
             "integrand": {
                 "mean": integrand.mean,
@@ -126,10 +127,11 @@ def _heading(sampler: str, scene: str, settings: dict[str, Any], integrand: Inte
 def _line(row: Comparison, with_native: bool) -> str:
     predicted, measured = row.predicted, row.measured
     # Shares and ratios of two zeros mean nothing.
-    exact = row.verdict == "exact"
+    exact = row.verdict == "exact" or predicted.variance == 0.0
     parts = (predicted.standard_error, predicted.tail, predicted.tail_bound)
-    shares = "".join(f"{'-' if exact else f'{part / predicted.variance:.2%}':>9}" for part in parts)
-    ratio, interval = ("-", "-") if exact else (f"{row.ratio:.4f}", f"{row.ratio_low:.4f} to {row.ratio_high:.4f}")
+    shares = "".join(f"{'-' if exact or math.isnan(part) else f'{part / predicted.variance:.2%}':>9}" for part in parts)
+    ratio = "-" if exact else f"{row.ratio:.4f}"
+    interval = "-" if exact or math.isnan(row.ratio_low) else f"{row.ratio_low:.4f} to {row.ratio_high:.4f}"
     line = f"  {row.count:>8}{predicted.variance:>12.4e}{shares}{measured.variance:>12.4e}{ratio:>8}{interval:>18}"
     native = f"{row.native.variance:>12.4e}" if with_native and row.native else ""
     return f"{line}{native}  {row.verdict}"

@@ -85,6 +85,7 @@ def spectrum(
     from samplekit_spectrum.cli.values import parse_positive, parse_projections, parse_vectors
     from samplekit_spectrum.frequencies import Cube
     from samplekit_spectrum.homogenized import homogenized
+    from samplekit_spectrum.map_display import counted
     from samplekit_spectrum.output import endings, write_spectra
     from samplekit_spectrum.spectrum import powers
     from samplekit_spectrum.tables import finite, spectrum_json, spectrum_lines
@@ -120,7 +121,7 @@ def spectrum(
     described = [spectrum_json(one) for one in spectra]
     metadata = {**_metadata(first, homogenize, project, chosen), "bias": [one["bias"] for one in described]}
     files = write_spectra(stem, spectra, finite(metadata), white)
-    sets = f"{first.realizations} realizations" if first.randomized else "one set: it is not random"
+    sets = counted(first.realizations, "realization") if first.randomized else "one set: it is not random"
     lines = [f"{first.sampler}, {first.count} points in {first.dims}D, {sets}, seed {first.seed}"]
     lines += [line for one in spectra for line in spectrum_lines(one)]
     report: dict[str, Any] = {
