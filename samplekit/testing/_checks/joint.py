@@ -4,6 +4,9 @@ All points of many sets are counted in cells. Points of one set depend on each o
 groups, which are independent, and means over groups are judged. Every quantity is a linear function of the counts whose
 mean is zero for uniform points: counts of intervals from one half to 1/1024, counts of cells, and Fourier and Walsh
 coefficients of the counts, which see a bias of three dimensions that no pair of them has.
+
+Cells of many dimensions together would be too many. There, one point is taken of each of many sets, and the means of
+waves of sums and differences of coordinates are judged.
 """
 
 from __future__ import annotations
