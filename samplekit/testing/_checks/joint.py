@@ -71,7 +71,8 @@ def check_joint_uniformity(subject: SamplerSubject) -> None:
     wanted = [count for count in _COUNTS if count <= _MOST_WHOLE or (subject.sampler.streams and not subject.slow)]
     # In another number of dimensions there may be another set.
     for fewer in sorted({dims} | (set() if subject.spec.extensible_dims else {subject.dims(2), subject.dims(3)})):
-        for count in subject.counts(*(_QUICK_COUNTS if subject.quick else wanted), dims=fewer):
+        chosen = _QUICK_COUNTS if subject.quick else wanted if fewer == dims else [n for n in wanted if n in _VIEWED]
+        for count in subject.counts(*chosen, dims=fewer):
             _judge(subject, fewer, [count] * groups, f"sets of {count} points")
     least, most = subject.dims(1), subject.most_dims(max(_WAVE_DIMS.values()))
     numbers = (
