@@ -16,14 +16,14 @@ from samplekit.testing._judge import judge_equal
 from samplekit.testing._result import CheckFailed, conformance_check
 from samplekit.testing._subject import Array, SamplerSubject
 
-_TIMES, _MOST_TIMES = 4, 256
+_TIMES, _SLOW_TIMES, _MOST_TIMES = 32, 4, 256
 
 
 @conformance_check("purity", 18)
 def check_purity(subject: SamplerSubject) -> None:
     """Usable from two threads at once, pickles, prints nothing, leaves the global generators and settings alone."""
     dims = subject.dims(3)
-    for count in subject.counts(7, 64, 4096, dims=dims):
+    for count in subject.counts(7, 64, *((4096,) if subject.sampler.streams and not subject.slow else ()), dims=dims):
         with changing_nothing():
             whole = subject.sets(count, dims, 32)
         with _seeded_globals():
@@ -79,13 +79,14 @@ def _at_once(subject: SamplerSubject, count: int, dims: int) -> tuple[list[Array
     """Ask for sets 0 to 31, and 1 to 32, from two threads that start together, several times."""
     made: tuple[list[Array], list[Array]] = ([], [])
     barrier = threading.Barrier(2)
+    times = _SLOW_TIMES if subject.slow else _TIMES
     failed = threading.Event()
 
     def run(mine: list[Array], others: list[Array], first: int) -> None:
         barrier.wait()
         try:
             # Until the other one has asked as well: on a busy machine it may start when this one would be done.
-            while len(mine) < _TIMES or (len(others) < _TIMES and len(mine) < _MOST_TIMES and not failed.is_set()):
+            while len(mine) < times or (len(others) < times and len(mine) < _MOST_TIMES and not failed.is_set()):
                 mine.append(subject.sets(count, dims, 32, first=first))
         except BaseException:
             failed.set()
