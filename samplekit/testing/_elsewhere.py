@@ -1,4 +1,4 @@
-"""Points of the subject made in another process: a fresh one, with another hash seed."""
+"""Points of the subject made in another process: a fresh one, with another hash seed and number of threads."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def judge_elsewhere(subject: SamplerSubject, source: str | SamplerSpec | Configu
     """
     dims = subject.dims(_DIMS)
     (count,) = subject.counts(_COUNT, dims=dims)
-    environment = {"PYTHONHASHSEED": "4711"}
+    environment = {"PYTHONHASHSEED": "4711", "OMP_NUM_THREADS": "1", "NUMBA_NUM_THREADS": "1", "TZ": "Asia/Tokyo"}
     try:
         (points,) = run_elsewhere(f"{__name__}:answer", source, count, dims, seconds=_SECONDS, environment=environment)
     except NoResultError as error:

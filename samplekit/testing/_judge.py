@@ -56,6 +56,7 @@ def judge_promise(
     count: int,
     *,
     seed: int = 0,
+    first: int = 0,
     start: int = 0,
     when: str = "",
 ) -> None:
@@ -65,6 +66,8 @@ def judge_promise(
     ----------
     values
         float64[R, D, n]: points ``start`` to ``start + n`` of sets of ``count`` points.
+    first
+        Realisation of the first set.
     when
         Circumstances, as the end of the message.
 
@@ -85,5 +88,6 @@ def judge_promise(
             " add up digits in integers and divide once"
         )
     row, indices, axes, box = found.realization, found.points, found.axes, found.box
-    example = subject.example(values, count, seed=seed, row=row, start=start, indices=indices, axes=axes, box=box)
+    where = {"seed": seed, "row": row, "first": first, "start": start}
+    example = subject.example(values, count, indices=indices, axes=axes, box=box, **where)
     raise CheckFailed(message, example)

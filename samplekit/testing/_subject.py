@@ -135,13 +135,13 @@ class SamplerSubject(Subject):
         """Tell whether sets of ``count`` points are declared."""
         return count <= self.spec.largest_index + 1 and self.spec.counts.allows(count, dims)
 
-    def makes(self, count: int, dims: int) -> bool:
+    def makes(self, count: int, dims: int, blocks: tuple[int, ...] = ()) -> bool:
         """Tell whether the sampler accepts a request: it may refuse some of what the rule for counts allows.
 
         An orthogonal array of s^2 points has at most s + 1 dimensions. The check ``limits`` judges refusals.
         """
         try:
-            self.sampler.check(count, dims)
+            self.sampler.check(count, dims, blocks)
         except UsageError:
             return False
         return True

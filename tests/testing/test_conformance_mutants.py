@@ -20,6 +20,8 @@ SLOW_CHECKS_NEEDED = {
     ),
     *("LatinUpTo500000", "NetOf17Digits", "SlicesFrom5000"),
     *("LowerHalfOfTheLast", "OneOctave", "OneCell", "OneCount", "LargeSets"),
+    *("SeedModuloAMillion", "KeyOf32Bits", "PrefixOf777", "UpperHalfOfTheSeventh", "CentresFrom2000"),
+    "DependsOnTheThreads",
 }
 """Caught with forced random bits, in another process, or by large samples alone; a quick run catches the others."""
 

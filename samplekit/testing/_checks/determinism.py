@@ -13,7 +13,7 @@ import numpy as np
 
 from samplekit._configured.sampler import sampler as configured_sampler
 from samplekit.testing._elsewhere import judge_elsewhere
-from samplekit.testing._judge import judge_equal
+from samplekit.testing._judge import judge_equal, repeated
 from samplekit.testing._result import CheckFailed, NotApplicable, conformance_check
 from samplekit.testing._subject import SamplerSubject, spread_counts
 
@@ -21,6 +21,8 @@ _REALIZATIONS = 70
 _POWERS = tuple(n for k in range(1, 17) for n in (2**k - 1, 2**k, 2**k + 1))
 _BASES = tuple(b**k for b in (3, 5, 7) for k in range(1, 11) if b**k < 2**17)
 _LENGTHS = (1, 3, 16, 100, 1000, *_POWERS, *_BASES)
+_ALL_LENGTHS = range(1, 1025)
+_SEEDS = 4096
 _CALLS, _QUICK_CALLS = 4096, 512
 """A sampler that changes after so many calls is found."""
 _DIMS = (1, 2, 3, 4, 5, 6, 7, 8, 9, 12, 16, 17, 24, 32, 33, 64)
@@ -77,7 +79,13 @@ def check_seed(subject: SamplerSubject) -> None:
     """Another seed gives other points if the sampler is declared randomised, the same points if it is not."""
     dims = subject.dims(2)
     count = subject.counts(16, dims=dims)[0]
-    seeds = (0, 1, 2, 2**31, 2**32, 2**32 + 1, 2**53 + 1, 2**63, 2**64 - 1)
+    seeds = sorted({abs(2**k + i) for k in range(64) for i in (-1, 0, 1)} | {2**64 - 1})
+    if subject.spec.period is not None or not subject.spec.randomized:
+        # Sets of a bank come back by chance.
+        seeds = [0, 1, 2, 2**31, 2**32, 2**32 + 1, 2**53, 2**53 + 1, 2**63, 2**64 - 1]
+    elif not subject.quick and not subject.slow:
+        # Seeds that are reduced to 20 bits or fewer, or modulo a million, have the same sets by chance.
+        seeds += np.random.default_rng(4).integers(2**64, size=_SEEDS, dtype=np.uint64).tolist()
     made = {seed: subject.sets(count, dims, 2, seed=seed) for seed in seeds}
     if not subject.spec.randomized:
         undeclared = "though it is declared not randomised"
@@ -85,12 +93,12 @@ def check_seed(subject: SamplerSubject) -> None:
             judge_equal(subject, made[0], made[seed], count, f"with seed {seed}, {undeclared}")
         judge_equal(subject, made[0][:1], made[0][1:], count, f"in realisation 1, {undeclared}")
         return
-    for first, second in itertools.combinations(seeds, 2):
-        if (made[first][0] == made[second][0]).all():
-            raise CheckFailed(
-                f"seeds {first} and {second} give the same points, though it is declared randomised",
-                subject.example(made[first], count, seed=first, indices=(0,)),
-            )
+    for one, other in repeated(sets[0] for sets in made.values()):
+        first, second = seeds[one], seeds[other]
+        raise CheckFailed(
+            f"seeds {first} and {second} give the same points, though it is declared randomised",
+            subject.example(made[first], count, seed=first, indices=(0,)),
+        )
 
 
 @conformance_check("prefix", 5)
@@ -101,7 +109,7 @@ def check_prefix(subject: SamplerSubject) -> None:
         raise NotApplicable("it is not declared progressive")
     dims = subject.dims(3)
     largest = min(subject.largest_count, 2**12 if subject.quick else 2**17)
-    lengths = {*_LENGTHS, *spread_counts(largest, 1)}
+    lengths = {*_LENGTHS, *spread_counts(largest, 1), *(_ALL_LENGTHS if subject.sampler.streams else ())}
     right = [n for n in sorted(lengths) if n <= largest and subject.allows(n, dims) and progressive.allows(n, dims)]
     for length in right[:: 3 if subject.quick else 1]:
         short = subject.sets(length, dims, 2)

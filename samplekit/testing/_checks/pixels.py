@@ -32,9 +32,10 @@ def check_across_pixels(subject: SamplerSubject) -> None:
     pixels = subject.affordable(_QUICK_PIXELS if subject.quick else _PIXELS, count, dims, least=512)
     along, zero = np.arange(pixels, dtype=np.int64), np.zeros(pixels, np.int64)
     block = subject.spec.screen_block
+    both = subject.fill(Realizations.of_pixels(np.append(along, zero[1:]), np.append(zero, along[1:]), 0), count, dims)
+    _judge_repeats(subject, both, pixels, count)
     for axis, x, y in (("x", along, zero), ("y", zero, along)):
-        values = subject.fill(Realizations.of_pixels(x, y, 0), count, dims)
-        _judge_repeats(subject, values, axis, count)
+        values = both[:pixels] if axis == "x" else np.concatenate([both[:1], both[pixels:]])
         if block is not None:
             values = subject.fill(Realizations.of_pixels(x * block, y * block, 0), count, dims)
         for dimension in range(min(dims, 2)):
@@ -48,16 +49,17 @@ def _pixel(axis: str, place: int) -> tuple[int, int]:
     return (place, 0) if axis == "x" else (0, place)
 
 
-def _judge_repeats(subject: SamplerSubject, values: Array, axis: str, count: int) -> None:
+def _judge_repeats(subject: SamplerSubject, values: Array, pixels: int, count: int) -> None:
+    """Judge the sets of a row of ``pixels``, and then those of the column below its first pixel, all together."""
     period = subject.spec.period
     for first, second in repeated(values):
-        if period is None or (second - first) % period != 0:
+        pair = [(i, 0) if i < pixels else (0, i - pixels + 1) for i in (first, second)]
+        if period is None or any((b - a) % period != 0 for a, b in zip(*pair, strict=True)):
             promised = "never" if period is None else f"after {period} pixels"
             points = values[second].T.copy()
             raise CheckFailed(
-                f"the set of pixel {first} comes back in pixel {second} along {axis},"
-                f" {second - first} pixels on: it is declared to come back {promised}",
-                subject.request(count, int(values.shape[1]), realization=_pixel(axis, second), points=points),
+                f"the set of pixel {pair[0]} comes back in pixel {pair[1]}: it is declared to come back {promised}",
+                subject.request(count, int(values.shape[1]), realization=pair[1], points=points),
             )
 
 

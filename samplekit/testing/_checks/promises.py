@@ -14,6 +14,10 @@ _LARGEST_NET, _LARGEST_QUICK_NET = 1 << 20, 1 << 12
 _LARGEST_BLOCK = 1 << 10
 _MOST_WORK = 1 << 25
 _COUNTS = (1, 2, 3, 4, 5, 6, 7, 9, 12, 16, 25, 49, 64, 96, 97, 100, 121, 256, 1000, 1024, 2025, 4095, 4096)
+_ALL_COUNTS, _QUICK_ALL_COUNTS = range(1, 1025), range(1, 129)
+_DIMS, _MORE_DIMS, _QUICK_MORE_DIMS = (1, 2, 3, 5), (*range(1, 13), 16, 64), (4, 16)
+_DIMS_COUNTS = (16, 97, 1024, 4096)
+"""The counts at which more dimensions are judged."""
 _LARGE_COUNTS = (*(n for k in range(12, 21) for n in (2**k, 2**k + 1)), 10**4, 10**5, 10**6)
 _QUICK_COUNTS = (1, 2, 3, 4, 7, 12, 25, 64, 97, 1000, 4096, 4097, 2**13, 2**16, 2**16 + 1)
 _DISTANCE_COUNTS = (2, 3, 16, 64, 97, 100, 256, 1024, 4096, 4097, 2**13)
@@ -21,6 +25,7 @@ _QUICK_DISTANCE_COUNTS = (2, 3, 16, 64, 97, 100, 256)
 _MANY, _QUICK_MANY = 1024, 256
 """Sets of up to 100 points that are judged, of each seed: a fault in one of a hundred is in them."""
 _SEEDS = (0, 1)
+_FAR = 10**6 - 7
 
 
 def promised_nets(spec: SamplerSpec) -> list[Net]:
@@ -82,7 +87,13 @@ def _judge_sets(
         wanted, seeds = 1, (0,)
     realizations = wanted if wanted == 1 else subject.affordable(wanted, count, dims, least)
     for seed in seeds:
-        judge_promise(subject, promise, subject.sets(count, dims, realizations, seed=seed), count, seed=seed)
+        # Seed 0: the first pixels; another one: pixels far from these, with blocks of dimensions.
+        blocks = (2,) * (dims // 2) + (1,) * (dims % 2) if seed else ()
+        blocks = blocks if subject.makes(count, dims, blocks) else ()
+        # One set at a time: of each count another one, so that a fault of some sets meets one of them.
+        first = seed * _FAR + (count if realizations == 1 and subject.spec.randomized else 0)
+        asked = subject.sampler.trials(first, first + realizations, seed, blocks)
+        judge_promise(subject, promise, subject.fill(asked, count, dims), count, seed=seed, first=first)
 
 
 def _judge_later_blocks(subject: SamplerSubject, net: Net, block: int, dims: int) -> None:
@@ -105,18 +116,31 @@ def check_strata(subject: SamplerSubject) -> None:
     many = _QUICK_MANY if subject.quick else _MANY
     large = () if subject.quick else (*_LARGE_COUNTS, *spread_counts(_LARGE_COUNTS[-1], 2))
     for promise in promises:
-        for dims in sorted({subject.dims(d) for d in (1, 2, 3, 5)}):
+        main = {subject.dims(d) for d in _DIMS}
+        for dims in sorted(main | {subject.most_dims(d) for d in (_QUICK_MORE_DIMS if subject.quick else _MORE_DIMS)}):
+            wanted_counts = _DIMS_COUNTS if dims not in main else _QUICK_COUNTS if subject.quick else _COUNTS
             # The largest sets are judged in two dimensions, or in as many as there are at least.
             more = large if dims == subject.dims(2) else ()
-            for count in subject.counts(*(_QUICK_COUNTS if subject.quick else _COUNTS), *more, dims=dims):
+            for count in subject.counts(*wanted_counts, *more, dims=dims):
                 if next(promise.cells(count, dims), None) is not None:
                     judged = True
-                    wanted = many if count <= 100 else 4 if count <= 4096 else 1
+                    wanted = 4 if dims not in main else many if count <= 100 else 4 if count <= 2**15 else 1
                     seeds = _SEEDS if count <= 4096 else _SEEDS[:1]
                     _judge_sets(subject, promise, count, dims, wanted, least=min(wanted, 4), seeds=seeds)
+        _judge_all_counts(subject, promise)
     if not judged:
         raise NotApplicable("no count that it makes has the promised strata")
     _judge_extremes(subject, promises)
+
+
+def _judge_all_counts(subject: SamplerSubject, promise: Promise) -> None:
+    """Judge one set of every count up to 1024, in two dimensions: nobody can tell which counts are special."""
+    dims = subject.dims(2)
+    if not subject.sampler.streams:
+        return
+    for count in _QUICK_ALL_COUNTS if subject.quick else _ALL_COUNTS:
+        if subject.allows(count, dims) and subject.makes(count, dims):
+            judge_promise(subject, promise, subject.sets(count, dims, first=count), count, first=count)
 
 
 @conformance_check("minimum-distance", 9)

@@ -34,6 +34,7 @@ _COUNT = 16
 _COUNTS, _DIMS = (4, _COUNT, 17, 64), (2, 3, 5)
 _SIDE, _ROW = 4, 2048
 _SEEDS, _QUICK_SEEDS = (0, 1, 2, 3, *(2**k for k in range(2, 64))), (0, 1, 2, 3, 2**31, 2**32, 2**63)
+_MOST_DIMS, _MOST_POINTS = 256, 64
 _PLACES = (*(2**k for k in range(2, 32)), 1000, 1920, 2**16 + 1, 2**31 - 1, LARGEST_COORDINATE)
 _FEW_SEEDS, _FEW = 4, 3
 """Of these seeds, and of pixels of this many columns and rows, all differences and sums are compared."""
@@ -72,6 +73,33 @@ def check_relations(subject: SamplerSubject) -> None:
     _judge_pairs(subject, table, owners, mirrored=False)
     _judge_pairs(subject, table, owners, mirrored=True)
     _judge_differences(subject)
+    _judge_dimensions(subject)
+
+
+def _judge_dimensions(subject: SamplerSubject) -> None:
+    """Raise if two dimensions of one realisation or of two, as many as there are up to 256, have equal coordinates.
+
+    All points are compared: point i + 1 of one dimension may be point i of another.
+    """
+    dims = subject.most_dims(_MOST_DIMS)
+    count = subject.counts(2**dims if subject.spec.counts.depends_on_dims else _COUNT, dims=dims)[0]
+    side = subject.spec.screen_block or 1
+    period = subject.spec.period or LARGEST_COORDINATE
+    pixels = np.array([(x % period, y % period) for x, y in ((0, 0), (1, 0), (0, 1))], np.int64) * side
+    owners: dict[Owner, int] = {}
+    parts = []
+    for seed in range(2):
+        values = subject.fill(Realizations.of_pixels(pixels[:, 0], pixels[:, 1], seed), count, dims)[
+            :, :, :_MOST_POINTS
+        ]
+        realization = [owners.setdefault((seed, int(x), int(y)), len(owners)) for x, y in pixels]
+        for index in range(values.shape[2]):
+            words, _, column = _rows(values, np.array(realization), count, dims, index)
+            parts.append((words, np.repeat(realization, dims) * dims + column[:, 0], column))
+    table = _Table(*(np.concatenate(each) for each in zip(*parts, strict=True)))
+    names = [owner for owner in owners for _ in range(dims)]
+    _judge_pairs(subject, table, names, mirrored=False)
+    _judge_pairs(subject, table, names, mirrored=True)
 
 
 def _pixels(subject: SamplerSubject) -> NDArray[np.int64]:
@@ -214,21 +242,22 @@ def _judge_differences(subject: SamplerSubject) -> None:
 def _judge_equal_differences(
     subject: SamplerSubject, one: _Table, two: _Table, owners: list[Owner], a: Words, b: Words
 ) -> None:
-    """Judge the differences of rows ``a`` of one table and rows ``b`` of another, with either sign."""
-    words = _unsigned(one.words[a] - two.words[b])
+    """Judge the differences of rows ``a`` of one table and rows ``b`` of another, with either sign or as digits."""
+    differences = {"are": _unsigned(one.words[a] - two.words[b]), "are digit by digit": one.words[a] ^ two.words[b]}
     low, high = np.minimum(one.owner[a], two.owner[b]), np.maximum(one.owner[a], two.owner[b])
     code = low * len(owners) + high if one is not two else np.arange(a.size)
-    order = np.lexsort((code, words))
-    first, second = order[:-1], order[1:]
-    places = np.flatnonzero((words[first] == words[second]) & (code[first] != code[second]))
-    chance = words.size**2 * _resolution(np.concatenate([one.words, two.words])) * int(one.column[:, 1].max())
-    if places.size >= poisson_threshold(chance, _TESTS):
-        (i, j), (k, m) = ((int(a[each[places[0]]]), int(b[each[places[0]]])) for each in (first, second))
-        text = (
-            f"{_name(one, owners, i)} and {_name(two, owners, j)} are as far apart as {_name(one, owners, k)}"
-            f" and {_name(two, owners, m)}"
-        )
-        _fail(subject, text, places.size, one, owners, i)
+    chance = a.size**2 * _resolution(np.concatenate([one.words, two.words])) * int(one.column[:, 1].max())
+    for how, words in differences.items():
+        order = np.lexsort((code, words))
+        first, second = order[:-1], order[1:]
+        places = np.flatnonzero((words[first] == words[second]) & (code[first] != code[second]))
+        if places.size >= poisson_threshold(chance, _TESTS):
+            (i, j), (k, m) = ((int(a[each[places[0]]]), int(b[each[places[0]]])) for each in (first, second))
+            text = (
+                f"{_name(one, owners, i)} and {_name(two, owners, j)} {how} as far apart as {_name(one, owners, k)}"
+                f" and {_name(two, owners, m)}"
+            )
+            _fail(subject, text, places.size, one, owners, i)
 
 
 def _judge_sums(subject: SamplerSubject, table: _Table, owners: list[Owner]) -> None:

@@ -24,7 +24,7 @@ _ROUNDING = 1e-12
 """The mean of an estimate that is all but exact differs from the integral by rounding alone."""
 
 
-def _one_point_a_set(subject: SamplerSubject, realizations: int, count: int, dims: int) -> Array:
+def one_point_a_set(subject: SamplerSubject, realizations: int, count: int, dims: int) -> Array:
     """Return one point of each set at a random index, float64[D, R].
 
     Points of one set depend on each other, those of different sets do not: this sample is independent, and the index
@@ -56,7 +56,7 @@ def check_uniformity(subject: SamplerSubject) -> None:
     if spec.randomized:
         count = subject.counts(_COUNT, dims=dims)[0]
         realizations = subject.affordable(wanted // (16 if subject.quick else 1), count, dims)
-        points = _one_point_a_set(subject, realizations, count, dims)
+        points = one_point_a_set(subject, realizations, count, dims)
     else:
         # Nothing is random: the set must be as uniform as random points are.
         count = subject.counts(wanted, dims=dims)[0]

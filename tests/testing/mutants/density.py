@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import math
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
-from mutants.mutant import Mutant, per_key
+from mutants.mutant import ALMOST_ONE, Mutant, per_key
 
 if TYPE_CHECKING:
     from mutants.mutant import Array
@@ -154,3 +155,97 @@ class OneSetInAHundred(Mutant):
 
     def spoil(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
         out[per_key(realizations)[:, 0] < 0.01, 0] = 0.7
+
+
+class TwelfthIsASum(Mutant):
+    """Makes dimension 12 the sum of dimensions 3 and 10."""
+
+    base, caught_by = "random", "joint-uniformity"
+
+    def spoil(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        if out.shape[1] > 12:
+            out[:, 12] = (out[:, 3] + out[:, 10]) % 1.0
+
+
+class FifthIsTheSum(Mutant):
+    """Makes dimension 4 the sum of the four before: all quadruples are independent."""
+
+    base, caught_by = "random", "joint-uniformity"
+
+    def spoil(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        if out.shape[1] > 4:
+            out[:, 4] = out[:, :4].sum(axis=1) % 1.0
+
+
+class UpperHalfOfTheSeventh(Mutant):
+    """Moves 5 % of the points of the upper half of dimension 7 down."""
+
+    base, caught_by = "random", "joint-uniformity"
+
+    def spoil(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        for column in out[:, 7:8].swapaxes(0, 1):
+            column[(column >= 0.5) & (coin(column) < 0.05)] -= 0.5
+
+
+class SevenDimensions(Mutant):
+    """Moves a tenth of the points of the upper halves down where seven dimensions are asked for."""
+
+    base, caught_by = "random", "joint-uniformity"
+    declares: ClassVar = {"extensible_dims": False}
+
+    def spoil(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        if out.shape[1] == 7:
+            out[(out >= 0.5) & (coin(out) < 0.1)] -= 0.5
+
+
+class UpperHalfFrom40000(Mutant):
+    """Moves a tenth of the points of the upper halves down in sets of 40 000 points and more."""
+
+    base, caught_by = "random", "joint-uniformity"
+    declares: ClassVar = {"progressive": None}
+
+    def spoil(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        if count >= 40_000:
+            out[(out >= 0.5) & (coin(out) < 0.1)] -= 0.5
+
+
+class SixteenDigits(Mutant):
+    """Leaves all digits past the sixteenth zero."""
+
+    base, caught_by = "sobol+owen", "joint-uniformity"
+
+    def spoil(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        out[:] = np.floor(out * 2.0**16) * 2.0**-16
+
+
+class PlaceOnTheDiagonal(Mutant):
+    """Jitters both coordinates of two by the same number, in sets of 64 points and more."""
+
+    base, caught_by = "jittered", "joint-uniformity"
+
+    def spoil(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        side = math.isqrt(count)
+        if out.shape[1] == 2 and side * side == count >= 64:
+            cell = np.floor(out[:, 1] * side)
+            place = np.minimum(out[:, 0] * side % 1.0, ALMOST_ONE)
+            out[:, 1] = np.minimum((cell + place) / side, np.nextafter((cell + 1) / side, 0.0))
+
+
+class CentresFrom2000(Mutant):
+    """Takes the centres of the intervals in sets of 2000 points and more."""
+
+    base, caught_by = "latin-hypercube", "joint-uniformity"
+
+    def spoil(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        if count >= 2000:
+            out[:] = (np.floor(out * count) + 0.5) / count
+
+
+class BlocksRepeat(Mutant):
+    """Gives the second pair of dimensions the numbers of the first where a scene tells its blocks of dimensions."""
+
+    base, caught_by = "random", "joint-uniformity"
+
+    def spoil(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        if realizations.blocks[:2] == (2, 2):
+            out[:, 2:4] = out[:, :2]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import random
 import time
 from typing import TYPE_CHECKING
@@ -68,3 +69,38 @@ class CannotBePickled(Mutant):
     def __init__(self) -> None:
         super().__init__()
         self.identity = lambda x: x
+
+
+class SilencesNumpy(Mutant):
+    """Turns off NumPy's warnings for everybody, from the first call on."""
+
+    base, caught_by = "random", "purity"
+
+    def spoil(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        np.seterr(all="ignore")
+
+
+class SharedBuffer(Mutant):
+    """Makes sets in a buffer that two threads write at once."""
+
+    base, caught_by = "random", "purity"
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.buffers: dict[tuple[int, ...], Array] = {}
+
+    def fill(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        buffer = self.buffers.setdefault(out.shape, np.empty_like(out))
+        self.inner.fill(buffer, realizations, count, start)
+        time.sleep(0.0005)
+        out[:] = buffer
+
+
+class DependsOnTheThreads(Mutant):
+    """Has other points where the environment asks for one thread."""
+
+    base, caught_by = "random", "determinism"
+
+    def spoil(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        if os.environ.get("OMP_NUM_THREADS") == "1":
+            out[:, 0] = (out[:, 0] + 0.5) % 1.0

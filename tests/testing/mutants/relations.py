@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -263,3 +264,72 @@ class PairsKnowEachOther(_Related):
         self.inner.fill(out, realizations, count, start)
         if count > 1000 and out.shape[1] == 3:
             out[:, :2] = out[:, 1::-1].copy()
+
+
+class RowsOf3840(_Related):
+    """Numbers pixels as in an image of 3840 columns: wider images repeat."""
+
+    caught_by = "across-pixels"
+
+    def moved(self, x, y, seed, count, dims):
+        return (x + 3840 * y) % _MOST, 0 * y, seed
+
+
+class SeedOf53Bits(_Related):
+    """Rounds the seed to a float64."""
+
+    caught_by = "seed"
+
+    def moved(self, x, y, seed, count, dims):
+        return x, y, int(float(seed))
+
+
+class SeedModuloAMillion(_Related):
+    """Takes the seed modulo 1 000 003."""
+
+    caught_by = "seed"
+
+    def moved(self, x, y, seed, count, dims):
+        return x, y, seed % 1_000_003 + 5 * 2**40
+
+
+class KeyOf32Bits(Mutant):
+    """Uses 32 bits of the key, as generators do that take a seed of 32 bits."""
+
+    base, caught_by = "random", "across-pixels"
+
+    def fill(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        self.inner.fill(out, replace(realizations, keys=realizations.keys & np.uint64(2**32 - 1)), count, start)
+
+
+class XoredSeeds(_OfTheSeedBefore):
+    """Adds a constant to the digits of the seed before, without carry."""
+
+    def fill(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        super().fill(out, realizations, count, start)
+        if realizations.seed & 1:
+            out[:] = ((out * 2.0**53).astype(np.uint64) ^ np.uint64(0xA5A5A5A5A5A5A)) * 2.0**-53
+
+
+class EightDimensionsAPoint(Mutant):
+    """Counts numbers: dimension 8 of a point is dimension 0 of the next."""
+
+    base, caught_by = "random", "relations"
+
+    def fill(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        one = np.empty((len(realizations), 1, out.shape[1] + 8 * out.shape[2]))
+        self.inner.fill(one, realizations, count, 8 * start)
+        for dimension in range(out.shape[1]):
+            out[:, dimension] = one[:, 0, dimension::8][:, : out.shape[2]]
+
+
+class LateDimensionsWithoutSeed(Mutant):
+    """Gives all seeds the same numbers from dimension 9 on."""
+
+    base, caught_by = "random", "relations"
+
+    def spoil(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        if out.shape[1] > 9:
+            same = np.empty_like(out)
+            self.inner.fill(same, Realizations.of_pixels(realizations.x, realizations.y, 5), count, start)
+            out[:, 9:] = same[:, 9:]

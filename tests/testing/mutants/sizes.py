@@ -164,3 +164,52 @@ class LastColumnOfManyPixels(Mutant):
             shifted = type(realizations).of_pixels(np.maximum(realizations.x - 1, 0), realizations.y, realizations.seed)
             self.inner.fill(before, shifted, count, start)
             out[late] = before[late]
+
+
+class LatinUpToDimension7(Mutant):
+    """Loses its strata from dimension 8 on."""
+
+    base, caught_by = "latin-hypercube", "strata"
+
+    def spoil(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        out[:, 8:] = out[:, 8:] * 7.0 % 1.0
+
+
+class GridOfFourDimensions(Mutant):
+    """Loses its strata in four dimensions."""
+
+    base, caught_by = "jittered", "strata"
+
+    def spoil(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        if out.shape[1] == 4:
+            out[:, 0] = out[:, 0] * 7.0 % 1.0
+
+
+class LatinUpToColumn3000(Mutant):
+    """Loses its strata in pixels of column 3000 and beyond."""
+
+    base, caught_by = "latin-hypercube", "strata"
+
+    def spoil(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        far = realizations.x >= 3000
+        out[far, 0] = out[far, 0] * 7.0 % 1.0
+
+
+class StrataLostInBlocks(Mutant):
+    """Loses the strata of the second pair of dimensions where a scene tells its blocks of dimensions."""
+
+    base, caught_by = "uncorrelated-jitter", "strata"
+
+    def spoil(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        if realizations.blocks:
+            out[:, 2:3] = out[:, 2:3] * 7.0 % 1.0
+
+
+class PrefixOf777(Mutant):
+    """Has other sets at 777 points and its multiples."""
+
+    base, caught_by = "random", "prefix"
+
+    def spoil(self, out: Array, realizations: Realizations, count: int, start: int) -> None:
+        if count % 777 == 0:
+            out[:, 0] = (out[:, 0] + 0.5) % 1.0
