@@ -4,6 +4,7 @@ python benchmarks/run_times.py [--runs 5] [--busy 2]
 
 The same study runs alone and beside busy processes, in turn. What is compared are ratios of two rows of one study,
 over all pairs of rows, since ratios decide which sampler is faster. The goal is that none changes by 10 % or more.
+Exit status 3 if one does.
 Two scenes differ in the last digit of a radius alone: rows of equal cost, whose intervals should overlap.
 """
 
@@ -62,7 +63,8 @@ def largest_change(before: list[float], after: list[float]) -> float:
     return math.exp(max(changes) - min(changes)) - 1.0
 
 
-def main() -> None:
+def main() -> int:
+    worst = 0.0
     parser = argparse.ArgumentParser()
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--busy", type=int, default=2)
@@ -84,6 +86,7 @@ def main() -> None:
             largest_change([one[row][0] for row in rows], [two[row][0] for row in rows])
             for one, two in zip(idle, loaded, strict=True)
         ]
+        worst = max(worst, *changes)
         medians = [[median(run[row][0] for run in runs) for row in rows] for runs in (idle, loaded)]
         print(f"  largest change of a ratio of two rows: {largest_change(*medians):.1%} between medians over the runs,")
         print(f"  {median(changes):.1%} in the median run and {max(changes):.1%} in the worst")
@@ -96,7 +99,8 @@ def main() -> None:
         if equal:
             overlap = sum(one[1] <= two[2] and two[1] <= one[2] for one, two in equal)
             print(f"  rows of equal cost: the intervals overlap in {overlap} of {len(equal)} comparisons")
+    return 3 if worst >= 0.10 else 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -64,7 +64,8 @@ def compare(
     cost
         Extra cost per sample, in nanoseconds, as if a renderer shaded it.
     target
-        Target mean squared error for the time-to-target table; None: one for each scene that all samplers reach.
+        Target mean squared error for the time-to-target table; None: for each scene the smallest that all samplers with
+        intervals certainly reach.
     fit
         First and last count that slopes are fitted to; None: all counts.
     output

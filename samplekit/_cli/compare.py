@@ -58,7 +58,7 @@ def compare(
         typer.Option(
             "--budget",
             metavar="SECONDS",
-            help="Time for measuring run times; by default a tenth of the time for errors, at least 1 s.",
+            help="Processor time for measuring run times; by default a tenth of the time for errors, at least 1 s.",
         ),
     ] = "",
     cost: Annotated[

@@ -70,4 +70,4 @@ def _interval(row: Row) -> str:
         return row.no_interval + ("" if high is None else f", <= {high:.3g}")
     if low is None or high is None:
         return "no interval" if high is None else f"at most {high:.3g}"
-    return "exact" if low == high else f"{low:.3g} to {high:.3g}"
+    return "not random" if low == high else f"{low:.3g} to {high:.3g}"

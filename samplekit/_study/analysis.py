@@ -208,10 +208,12 @@ class Analysis:
         sums = self._sums[combination]
         if reason == "no hits":
             error = sums[:, SQUARE].sum() / sums[:, TRIALS].sum()
-            return f"all trials gave one value, whose mse is {error:.3g}: nothing tells the errors of the next ones"
+            return f"all trials gave one value, with an mse of {error:.3g}; the errors of others are not known"
         return {
             "few hits": "too few trials found what makes up the error",
-            FEW_TRIALS: f"an interval needs two trials, and {LEAST_TRIALS} estimates of pixels that are not constant",
+            FEW_TRIALS: f"an interval needs {LEAST_TRIALS} trials"
+            if self._request.one_pixel
+            else f"an interval needs two trials, and {LEAST_TRIALS} estimates of pixels that are not constant",
             INFINITE_VARIANCE: "the mean of the squares does not settle",
             HEAVY_TAILS: "squared errors have an infinite variance, so their mean has no standard error",
         }[reason]

@@ -22,7 +22,7 @@ from samplekit._study.results import LEVEL, Interval
 from samplekit._study.trials import BLURRED, ERROR, INVALID, PAIRS, PRODUCT, SQUARE, TRIALS, Array
 
 _ENOUGH_HITS = 16.0
-"""Effective number of trials from which their errors have an interval; or a fifth of them, if that is less.
+"""Effective number of trials that must differ before errors have an interval; or a fifth of them, if that is less.
 
 With fewer, rare errors of another size are likely to be missing."""
 _LEAST_PAIRS = 4
@@ -106,7 +106,7 @@ def errors_of(
             found = {name: each and Interval(None) for name, each in found.items()}
             found["mse"] = Interval(None, None, _bound_from_no_events(mse, number, largest))
         elif mse.estimate is not None and math.sqrt(mse.estimate) <= floor:
-            # Every trial is right up to rounding. The next one may be of another kind.
+            # No trial differs by more than rounding and the reference's own error. The next may be of another kind.
             found["mse"] = Interval(mse.estimate, 0.0, _bound_from_no_events(mse, number, largest))
     return {
         "trials": number,

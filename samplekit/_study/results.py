@@ -129,8 +129,8 @@ class Row:
         Why errors have no interval; empty if they have. ``"no hits"``: all trials gave one value, and it is not the
         mean of the scene. ``"few hits"``: too few trials found what makes up the error. ``"infinite variance"``
         or ``"heavy tails"``: the scene says that its square, or its fourth power, has no finite integral.
-        ``"few trials"``: one, or fewer than 32 estimates of pixels that are not constant. No fit uses such rows, and no
-        ranking those of the other kinds.
+        ``"few trials"``: one, or fewer than 32 estimates of pixels that are not constant. No fit uses such rows. The
+        answers use the estimates of the last kind, and of the others at most the bound ``mse.high``.
     mse, rmse
         Mean over trials and pixels of the squared error, and its square root. Without hits there is no estimate, and
         ``high`` is a one-sided 95 % bound if the scene declares the range of its values.
@@ -155,8 +155,8 @@ class Row:
     times
         Measured times; None if none were measured.
     time
-        Seconds of a trial that the answers use: the estimate of ``times.seconds``, plus the extra cost per sample. None
-        without ``times``.
+        Seconds of a trial that the answers use: ``times.seconds``, plus the extra cost per sample. None without
+        ``times``.
     fitted, left_out
         Whether the fit uses this row, and why not.
     notes

@@ -73,12 +73,13 @@ def _least_text(target: float, needs: Sequence[ToTarget]) -> str:
         ("the least time", [need.seconds for need in needs]),
     ):
         may = [need.sampler for need, may in zip(needs, may_be_least(numbers), strict=True) if may]
-        if may:
-            untold = ", which the intervals do not tell" if len(may) > 1 else ""
-            found.setdefault(f"{listed(may, 'or')} needs {{}}{untold}", []).append(what)
+        if len(may) == 1:
+            found.setdefault(f"{may[0]} needs", []).append(what)
+        elif may:
+            found.setdefault(f"the intervals do not tell which of {listed(may, 'and')} needs", []).append(what)
         elif any(number.estimate is not None for number in numbers):
-            found.setdefault("no interval tells which sampler needs {}", []).append(what)
-    texts = [text.format(" and ".join(whats)) for text, whats in found.items()] if len(needs) > 1 else []
+            found.setdefault("no interval tells which sampler needs", []).append(what)
+    texts = [f"{text} {' and '.join(whats)}" for text, whats in found.items()] if len(needs) > 1 else []
     return "; ".join([f"the target is an mse of {target:.3g}", *texts])
 
 
@@ -91,21 +92,27 @@ def _flip_text(flip: Flip) -> str:
 
 
 def _budgets_text(choices: Sequence[Choice]) -> str:
-    alone = [choice for choice in choices if len(choice.samplers) == 1]
     if len(choices) == 1:
         return f"for every budget of time the best sampler is {listed(choices[0].samplers, 'or')}"
+    alone: dict[str, list[str]] = {}
+    for choice in choices:
+        if len(choice.samplers) == 1:
+            alone.setdefault(choice.samplers[0], []).append(_range(choice))
     if not alone:
         return "the intervals tell no best sampler for any budget of time"
-    untold = "; for other budgets the intervals do not tell" if len(alone) < len(choices) else ""
-    if len(alone) > _MOST_BUDGETS:
-        names = listed(list(dict.fromkeys(choice.samplers[0] for choice in alone)), "and")
-        return f"the best sampler changes with the budget of time among {names}{untold}"
-    return f"the best sampler for a budget of time is {listed([*map(_budget, alone)], 'and')}{untold}"
+    number = sum(map(len, alone.values()))
+    untold = "; for other budgets the intervals do not tell" if number < len(choices) else ""
+    if number <= _MOST_BUDGETS:
+        best = ", ".join(f"{sampler} {listed(ranges, 'and')}" for sampler, ranges in alone.items())
+        return f"the best sampler for a budget of time is {best}{untold}"
+    if len(alone) == 1:
+        return f"for some budgets of time the best sampler is {next(iter(alone))}{untold}"
+    return f"the best sampler changes with the budget of time among {listed(list(alone), 'and')}{untold}"
 
 
-def _budget(choice: Choice) -> str:
+def _range(choice: Choice) -> str:
     until = "on" if choice.until is None else f"to {seconds_in_words(choice.until)}"
-    return f"{choice.samplers[0]} from {seconds_in_words(choice.seconds)} {until}"
+    return f"from {seconds_in_words(choice.seconds)} {until}"
 
 
 def _crossing_text(crossing: Crossing) -> str:

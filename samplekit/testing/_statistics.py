@@ -19,7 +19,7 @@ variance           1.35 times what is promised                          1.45 tim
 across-pixels      correlation 0.02 of one pixel with another           0.075
 across-dimensions  correlation 0.019 of one dimension with another      0.037
                    three dimensions tied in 7 points of 10              the same
-relations          any that holds exactly, at three places              the same
+relations          any that holds exactly, at eleven places             at three
 =================  ===================================================  =====================
 """
 

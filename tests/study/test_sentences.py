@@ -42,8 +42,14 @@ def test_those_whose_intervals_overlap_are_named_together():
     ]
     first, *_ = said(needs)
     assert (
-        first == "disk: the target is an mse of 0.01; a or b needs the fewest samples, which the intervals do not tell."
+        first
+        == "disk: the target is an mse of 0.01; the intervals do not tell which of a and b needs the fewest samples."
     )
+
+
+def test_names_may_hold_any_letters():
+    needs = [need("file:path={x}.csv", Interval(20.0, 18.0, 22.0)), need("b", Interval(90.0, 80.0, 99.0))]
+    assert "file:path={x}.csv needs the fewest samples" in said(needs)[0]
 
 
 @pytest.mark.parametrize(
@@ -95,10 +101,12 @@ def test_budgets_name_the_best_only_where_it_is_alone():
         Choice("disk", ["b"], 3e-6, None),
     ]
     assert said(front=front)[1] == (
-        "disk: the best sampler for a budget of time is a from 1 µs to 2 µs and b from 3 µs on;"
+        "disk: the best sampler for a budget of time is a from 1 µs to 2 µs, b from 3 µs on;"
         " for other budgets the intervals do not tell."
     )
     assert said(front=[front[1]])[1] == "disk: for every budget of time the best sampler is a or b."
+    apart = [Choice("disk", ["a"] if k % 2 else ["a", "b"], 1e-6 * (k + 1), 1e-6 * (k + 2)) for k in range(20)]
+    assert said(front=apart)[1].startswith("disk: for some budgets of time the best sampler is a;")
     many = [Choice("disk", ["ab"[k % 2]], 1e-6 * (k + 1), 1e-6 * (k + 2)) for k in range(9)]
     assert said(front=many)[1] == "disk: the best sampler changes with the budget of time among a and b."
 

@@ -85,7 +85,9 @@ def finds(family: Family, strength: float, key: int, *, quick: bool) -> bool:
         inner.fill(out, other, count, start)
         family.spoil(out, other, strength)
 
-    subject.sampler = SimpleNamespace(check=inner.check, prepare=inner.prepare, streams=inner.streams, fill=fill)
+    subject.sampler = SimpleNamespace(
+        check=inner.check, prepare=inner.prepare, streams=inner.streams, trials=inner.trials, fill=fill
+    )
     check = next(each for each in SUITES["sampler"] if each.name == family.check)
     try:
         check.function(subject)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from samplekit.testing import _statistics as statistics
+from samplekit.testing._checks import joint
 from samplekit.testing._checks.dimensions import pair_correlations
 from samplekit.testing._checks.joint import held_in_cells, walsh
 from samplekit.testing._checks.uniformity import SIDE, cell_counts, integrands
@@ -82,8 +83,12 @@ def test_the_bias_and_the_correlation_that_are_seen_are_those_that_are_stated():
 
 def test_the_joint_density_that_is_seen_is_the_one_that_is_stated():
     """Nine times in ten: an interval that holds n points is known to 1 / sqrt(n)."""
-    for points, groups, half, narrow in ((2**23, 512, 0.003, 0.024), (2**19, 128, 0.013, 0.1)):
-        beyond = statistics.student_threshold(500_000, groups - 1) + 1.2816
+    whole, quick = (
+        (joint._POINTS, joint._GROUPS, 0.003, 0.024),
+        (joint._QUICK_POINTS, joint._QUICK_GROUPS, 0.013, 0.101),
+    )
+    for points, groups, half, narrow in (whole, quick):
+        beyond = statistics.student_threshold(joint._TESTS, groups - 1) + 1.2816
         assert beyond / math.sqrt(points) <= half
         assert beyond / math.sqrt(points / 64) <= narrow
 

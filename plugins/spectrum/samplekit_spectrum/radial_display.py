@@ -147,8 +147,7 @@ class RadialDisplay(Display):
         """Return half the width of the interval in standard errors, by Student's t over the realisations."""
         from scipy.special import stdtrit
 
-        freedom = self._realizations - 1 if self._realizations > 1 else math.inf
-        return float(stdtrit(freedom, 0.5 + 0.5 * _LEVEL))
+        return float(stdtrit(max(self._realizations - 1, 1), 0.5 + 0.5 * _LEVEL))
 
     def _draw_anisotropy(self, ax: Axes) -> None:
         anisotropy = self.radial.anisotropy

@@ -202,7 +202,7 @@ SAMPLERS = (
     SamplerSpec(
         "owen-sobol",
         _SAMPLERS + "owen_sobol:OwenSobol",
-        "Sobol points in blocks of four dimensions, each Owen-scrambled and shuffled",
+        "Sobol points in blocks of four dimensions, each Owen-scrambled (32 digits) and shuffled",
         reference="Burley 2020; Laine, Karras 2011; Joe, Kuo 2008",
         progressive=PowersOf(2),
         promises=(*_sobol_nets(0), *_sobol_nets(4)),
@@ -210,7 +210,7 @@ SAMPLERS = (
     SamplerSpec(
         "pmj02",
         _SAMPLERS + "pmj02:Pmj02",
-        "progressive multi-jittered (0, 2)-sequence, in pairs of dimensions",
+        "progressive multi-jittered (0, 2)-sequence of 32 digits, in pairs of dimensions",
         reference="Christensen, Kensler, Kilpatrick 2018; Helmer, Christensen, Kensler 2021",
         progressive=PowersOf(2),
         promises=tuple(Net(dims=(first, first + 1)) for first in (0, 2, 4, 6)),
@@ -218,7 +218,7 @@ SAMPLERS = (
     SamplerSpec(
         "z-sobol",
         _SAMPLERS + "z_sobol:ZSobol",
-        "one Owen-scrambled Sobol sequence for neighbouring pixels: blue noise in the error image",
+        "one Owen-scrambled Sobol sequence (32 digits) for neighbouring pixels: blue noise in the error image",
         reference="Ahmed, Wonka 2020",
         options=(
             Option(

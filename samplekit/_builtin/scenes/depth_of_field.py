@@ -93,8 +93,8 @@ class DepthOfField(Scene):
         The focus is 0, or a circle of confusion is wider than 1e12 pictures.
     """
 
-    reference_error = 1.5e-5
     value_range = (0.0, 1.0)
+    reference_error = 1.5e-5
     """Against a tolerance of 1e-9 the error was at most 7.2e-6, its root mean square 4e-7. The square of the bound is a
     third of 1 % of the smallest mse that any sampler reached with 4096 samples per pixel at 512 x 512."""
 

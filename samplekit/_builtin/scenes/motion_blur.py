@@ -113,8 +113,8 @@ class MotionBlur(Scene):
         Diameter of the lens. 0: a pinhole, and the scene has no dimensions of the lens.
     """
 
-    reference_error = 2e-6
     value_range = (0.0, 1.0)
+    reference_error = 2e-6
     """Against a tolerance of 1e-9 the error was at most 5.1e-7."""
 
     def __init__(self, shutter: float = 0.5, aperture: float = 0.0) -> None:

@@ -29,14 +29,14 @@ _TIED_DIMS, _TIED_COUNT, _TIED_SETS = 5, 1 << 16, 4
 _MOST_TIED = 0.3
 """Most of |S|^2 / N^2, where S is the sum over a set of a Fourier or Walsh function of three or four dimensions.
 
-It is 1 where one dimension is the sum of two others, 1 / N for random points, and at most 0.14 in all samplers of
-ours, lattices among them: they have such functions too, whose frequencies grow with N.
+It is 1 where one dimension is the sum of two others, 1 / N for random points, and at most 0.14 in all samplers that
+come with samplekit or its plugins, lattices among them: they have such functions too, whose frequencies grow with N.
 """
 
 
 @conformance_check("across-dimensions", 14)
 def check_across_dimensions(subject: SamplerSubject) -> None:
-    """Two dimensions of a set are correlated little more than random ones; no one is a function of two or three.
+    """Two dimensions of a set are correlated little more than random ones; no one is a sum of two or three.
 
     A set of n points may have a correlation of about 7 / sqrt(n).
     """

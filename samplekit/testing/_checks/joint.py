@@ -33,8 +33,8 @@ _GROUPS, _QUICK_GROUPS = 512, 128
 _TESTS = 1_000_000
 """More than the number of tests in all.
 
-34 000 for each of ten counts in four dimensions and 16 000 in two and three, 116 000 in six, at most 6000 of places in
-intervals for each of thirty, and 100 000 waves.
+39 000 for each of ten counts in four dimensions, 9000 in two and 20 000 in three for each of five, 112 000 in six for
+each of three kinds of blocks, at most 1400 of places in intervals for each of thirty, and 100 000 waves.
 """
 _FINE_SIDES = {1: 8, 2: 8}
 _FINE = 2.0**20

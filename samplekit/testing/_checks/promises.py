@@ -18,7 +18,7 @@ _ALL_COUNTS, _QUICK_ALL_COUNTS = range(1, 1025), range(1, 129)
 _DIMS, _MORE_DIMS, _QUICK_MORE_DIMS = (1, 2, 3, 5), (*range(1, 13), 16, 64), (4, 16)
 _DIMS_COUNTS = (16, 97, 1024, 4096)
 """The counts at which more dimensions are judged."""
-_LARGE_COUNTS = (*(n for k in range(12, 21) for n in (2**k, 2**k + 1)), 10**4, 10**5, 10**6)
+_LARGE_COUNTS = (*(n for k in range(10, 21) for n in (2**k, 2**k + 1)), 10**4, 10**5, 10**6)
 _QUICK_COUNTS = (1, 2, 3, 4, 7, 12, 25, 64, 97, 1000, 4096, 4097, 2**13, 2**16, 2**16 + 1)
 _DISTANCE_COUNTS = (2, 3, 16, 64, 97, 100, 256, 1024, 4096, 4097, 2**13)
 _QUICK_DISTANCE_COUNTS = (2, 3, 16, 64, 97, 100, 256)

@@ -117,8 +117,9 @@ def _pixels(subject: SamplerSubject) -> NDArray[np.int64]:
 def _affordable_seeds(subject: SamplerSubject) -> tuple[int, ...]:
     """Return the seeds: fewer of a sampler that is slow, which may make something for each."""
     seeds = _QUICK_SEEDS if subject.quick else _SEEDS
-    slow = subject.affordable(len(seeds), subject.counts(_COUNT, dims=subject.dims(2))[0], subject.dims(2), least=4)
-    return seeds if slow == len(seeds) and not subject.slow else _QUICK_SEEDS[:4]
+    dims = subject.dims(2)
+    affordable = subject.affordable(len(seeds), subject.counts(_COUNT, dims=dims)[0], dims, least=4)
+    return _QUICK_SEEDS[:4] if subject.slow or affordable < len(seeds) else seeds
 
 
 def _judge_whole_sets(subject: SamplerSubject, pixels: NDArray[np.int64], seeds: tuple[int, ...]) -> None:

@@ -193,6 +193,20 @@ def check_dimensions_used(subject: SceneSubject) -> None:
         raise CheckFailed(f"scene {subject.text} asks for dimensions that change nothing: {', '.join(unused)}")
 
 
+@conformance_check("value-range", 7, kind="scene")
+def check_value_range(subject: SceneSubject) -> None:
+    """No value over the unit square lies outside of the range that the scene declares."""
+    bounds = subject.scene.value_range
+    if bounds is None:
+        raise NotApplicable("it declares no range of its values")
+    u = np.random.default_rng(14).random((subject.dims, 1 << 14))
+    values = subject.values(u, np.array([0.0, 1.0, 0.0, 1.0]))
+    outside = np.flatnonzero((values < bounds[0]) | (values > bounds[1]))
+    if outside.size:
+        value = float(values[outside[0]])
+        raise CheckFailed(f"scene {subject.text}: the value {value!r} is outside of value_range={bounds}")
+
+
 @conformance_check("purity", 5, kind="scene")
 def check_scene_purity(subject: SceneSubject) -> None:
     """The sum of a pixel is the same again, alone and in another thread; nothing else changes, nothing is printed."""

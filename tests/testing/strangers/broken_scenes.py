@@ -64,6 +64,10 @@ class CountsItsCalls(Ramp):
         return points[0] + points[1] + 1e-9 * CountsItsCalls.calls
 
 
+class KnowsALowerMaximum(Ramp):
+    value_range = (0.0, 1.9)
+
+
 def spec(name, target, **declared):
     return SceneSpec(name, f"broken_scenes:{target}", f"{name}: for tests", **declared)
 
@@ -77,4 +81,5 @@ SPECS = [
     (spec("draws-a-lens", "DrawsALensForNothing", purposes=(("pixel", 2), ("lens", 2))), "dimensions-used"),
     (spec("undeclared-purpose", "DrawsALensForNothing"), "dimensions-used"),
     (spec("counts-its-calls", "CountsItsCalls"), "purity"),
+    (spec("knows-a-lower-maximum", "KnowsALowerMaximum"), "value-range"),
 ]
