@@ -197,10 +197,11 @@ def test_derived_intervals_cover_in_90_to_99_of_100_studies(shared):
     assert ((shares >= 0.90) & (shares <= 0.99)).all(), shares
 
 
-def test_a_winner_among_equals_is_named_in_one_of_a_hundred_studies_at_most():
-    # Of 200 studies 2 name a winner in the mean if one in a hundred does; more than 7 do with a probability of 1e-3.
+def test_winners_among_equals_are_named_in_few_studies():
+    # If one study in a hundred names a winner, of samples, of a budget or at some counts, 2 of 200 do in the mean, and
+    # more than 7 do with a probability of 1e-3.
     rng = np.random.default_rng(13)
-    winners = 0
+    fewest = best = crossed = 0
     for _ in range(200):
         rows = []
         for sampler in "abc":
@@ -208,6 +209,10 @@ def test_a_winner_among_equals_is_named_in_one_of_a_hundred_studies_at_most():
                 sums = np.zeros((TRIALS_OF_A_ROW, COLUMNS))
                 sums[:, TRIALS], sums[:, ERROR] = 1.0, rng.standard_normal(TRIALS_OF_A_ROW) / math.sqrt(count)
                 sums[:, SQUARE] = sums[:, ERROR] ** 2
-                rows.append(row(sampler, count, errors_of(sums, one_pixel=True)["mse"]))
-        winners += sum(may_be_least([need.count for need in rank(rows, 0.02, 0.0).to_target])) == 1
-    assert winners <= 7
+                mse = errors_of(sums, one_pixel=True)["mse"]
+                rows.append(row(sampler, count, mse, around(1e-6 * count, 1.02)))
+        found = rank(rows, 0.02, 0.0)
+        fewest += sum(may_be_least([need.count for need in found.to_target])) == 1
+        best += any(len(choice.samplers) == 1 for choice in found.front)
+        crossed += bool(found.crossings)
+    assert max(fewest, best, crossed) <= 7
