@@ -42,7 +42,7 @@ _VIEWED = (1, 16, 100, 256, 4096)
 """Counts at which the places within small parts of an axis are judged, too."""
 _BLOCKS = ((2, 2, 2), (2, 1, 2, 1))
 """Blocks of dimensions, cut to fit: scenes have such."""
-_WAVE_SETS, _QUICK_WAVE_SETS, _WAVE_COUNT = 1 << 15, 1 << 12, 16
+_WAVE_SETS, _QUICK_WAVE_SETS, _WAVE_COUNT, _MOST_WAVE_COUNT = 1 << 15, 1 << 12, 16, 512
 _LARGE_WAVE_SETS, _LARGE_WAVE_COUNTS = 1 << 14, (1 << 17, 10**6)
 _WAVE_DIMS = {1: 64, 2: 16, 3: 16, 4: 8, 5: 8}
 """Most dimensions of which so many are taken together."""
@@ -75,7 +75,7 @@ def check_joint_uniformity(subject: SamplerSubject) -> None:
         chosen = _QUICK_COUNTS if subject.quick else wanted if fewer == dims else [n for n in wanted if n in _VIEWED]
         for count in subject.counts(*chosen, dims=fewer):
             _judge(subject, fewer, [count] * groups, f"sets of {count} points")
-    least, most = subject.dims(1), subject.most_dims(max(_WAVE_DIMS.values()))
+    least, most = subject.dims(1), _wave_dims(subject)
     numbers = (
         {most} if subject.spec.extensible_dims else {d for d in range(least, most + 1) if d <= 9 or d in (16, most)}
     )
@@ -92,6 +92,12 @@ def check_joint_uniformity(subject: SamplerSubject) -> None:
                 for i, start in enumerate(starts)
             ]
             _judge_waves(subject, np.concatenate(points)[:, :, 0].T, count)
+
+
+def _wave_dims(subject: SamplerSubject) -> int:
+    """Return the most dimensions, up to 64, that it makes of few points: a grid in many dimensions is large."""
+    tried = [subject.most_dims(2**k) for k in range(6, -1, -1)]
+    return next((d for d in tried if subject.counts(_WAVE_COUNT, dims=d)[0] <= _MOST_WAVE_COUNT), tried[-1])
 
 
 def _judge_waves(subject: SamplerSubject, points: Array, count: int) -> None:
