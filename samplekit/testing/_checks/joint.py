@@ -84,11 +84,11 @@ def check_joint_uniformity(subject: SamplerSubject) -> None:
         sets = subject.affordable(_QUICK_WAVE_SETS if subject.quick else _WAVE_SETS, count, dims, least=1 << 10)
         _judge_waves(subject, one_point_a_set(subject, sets, count, dims), count)
     if subject.sampler.streams and not subject.slow:
-        for count in subject.counts(*_LARGE_WAVE_COUNTS[: 1 if subject.quick else None], dims=dims):
+        for count in subject.counts(*_LARGE_WAVE_COUNTS[: 1 if subject.quick else None], dims=most):
             sets = _QUICK_WAVE_SETS if subject.quick else _LARGE_WAVE_SETS
             starts = np.random.default_rng(count).integers(count, size=sets).tolist()
             points = [
-                subject.fill(subject.sampler.trials(i, i + 1, 0), count, dims, start, 1)
+                subject.fill(subject.sampler.trials(i, i + 1, 0), count, most, start, 1)
                 for i, start in enumerate(starts)
             ]
             _judge_waves(subject, np.concatenate(points)[:, :, 0].T, count)
