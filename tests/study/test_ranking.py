@@ -188,7 +188,10 @@ def test_derived_intervals_cover_in_90_to_99_of_100_studies(shared):
         found = rank(study_of(rng, shared), TARGET, 0.0)
         for place, need in enumerate(found.to_target):
             for offset, (interval, truth) in enumerate(((need.count, counts), (need.seconds, seconds))):
-                covered[2 * place + offset] += interval.low <= truth[need.sampler] <= interval.high
+                # One row in 1000 has no interval by chance, and leaves an end open.
+                covered[2 * place + offset] += (
+                    (interval.low or 0.0) <= truth[need.sampler] <= (interval.high or math.inf)
+                )
         for flip in found.flips:
             flips += 1
             covered[4] += flip.cost.low <= cost <= flip.cost.high
