@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import math
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -29,6 +30,11 @@ TRIAL_COUNTS = (32, 64, 100, 400)
 CORNER = "oscillating:family=corner-peak"
 
 
+def _shares(rng: np.random.Generator, samples: int, area: float, number: int) -> Array:
+    """Draw errors of the share of samples inside a shape of this area."""
+    return rng.binomial(samples, area, number) / samples - area
+
+
 def families(rng: np.random.Generator) -> dict[str, tuple[Callable[[int], Array], float]]:
     """Return for each kind of error a function that draws so many, and their true mean square."""
     shares = {"bright disk, 1 sample": (1, 0.28), "small disk, 16 samples": (16, 0.008)}
@@ -43,8 +49,7 @@ def families(rng: np.random.Generator) -> dict[str, tuple[Callable[[int], Array]
         "lognormal": (lambda n: np.exp(rng.standard_normal(n)) - math.exp(0.5), (math.e - 1.0) * math.e),
     }
     for name, (samples, area) in shares.items():
-        draw = lambda n, samples=samples, area=area: rng.binomial(samples, area, n) / samples - area  # noqa: E731
-        found[name] = draw, area * (1.0 - area) / samples
+        found[name] = partial(_shares, rng, samples, area), area * (1.0 - area) / samples
     edges = np.array([0.0, 1.0])
     exact = float(samplekit.scene(CORNER).exact(edges, edges)[0, 0])
     values = samplekit.estimate(CORNER, "random", 1, realizations=2**21) - exact

@@ -58,7 +58,7 @@ def rank(rows: Sequence[Row], target: float | None, cost: float) -> Ranking:
         error = target if target is not None else _common_error(curves.values())
         if error is not None:
             found.target[scene] = error
-            needs = {sampler: _Need(curve, error, cost) for sampler, curve in curves.items()}
+            needs = {sampler: _Need(curve, error) for sampler, curve in curves.items()}
             found.to_target.extend(
                 ToTarget(scene, sampler, error, need.count, need.seconds(cost)) for sampler, need in needs.items()
             )
@@ -104,7 +104,7 @@ class _Need:
         The number of samples of a pixel; see :class:`ToTarget`.
     """
 
-    def __init__(self, rows: Sequence[Row], target: float, cost: float) -> None:
+    def __init__(self, rows: Sequence[Row], target: float) -> None:
         known = [row for row in rows if row.mse.estimate is not None and row.no_interval in ("", FEW_TRIALS)]
         estimate = _reach([(row.count, row.mse.estimate or 0.0) for row in known], target)
         low = _reach(_ends_of(rows, lambda mse: 0.0 if mse.low is None else mse.low), target)
@@ -117,7 +117,7 @@ class _Need:
             inside = estimate if estimate is not None and estimate > known[0].count else None
             self.count = Interval(inside, low if low > first else None, high)
         self.pixels = rows[0].samples / rows[0].count
-        self._own = [(row.count, _without(row.time, cost * 1e-9 * row.samples)) for row in rows if row.time is not None]
+        self._own = [(row.count, row.times.seconds) for row in rows if row.times is not None]
 
     def seconds_at(self, samples: float, share: float = 1.0, cost: float = 0.0) -> float:
         """Return the seconds of so many samples of a pixel, on straight lines in logarithms between the rows.
@@ -165,11 +165,6 @@ class _Need:
             None if count.low is None else found.low,
             None if count.high is None else found.high,
         )
-
-
-def _without(time: Interval, seconds: float) -> Interval:
-    """Return a time less a known one."""
-    return Interval(*(end if end is None else end - seconds for end in (time.estimate, time.low, time.high)))
 
 
 def _is_closed(interval: Interval) -> bool:
@@ -262,17 +257,29 @@ def _flips(scene: str, target: float, needs: Mapping[str, _Need]) -> list[Flip]:
         if not (_is_closed(fewer.count) and _is_closed(more.count)) or None in shares:
             continue
 
-        def at(many: float, few: float, many_share: float, few_share: float, more: _Need, fewer: _Need) -> float:
-            saved = fewer.seconds_at(few, few_share) - more.seconds_at(many, many_share)
-            return saved / ((many - few) * more.pixels) * 1e9
-
         inputs = [more.count, fewer.count, *(share for share in shares if share is not None)]
-        cost = derived_interval(partial(at, more=more, fewer=fewer), inputs)
+        cost = derived_interval(partial(_cost_of_flip, more, fewer), inputs)
         there = [need.seconds(cost.estimate or 0.0) for need in (more, fewer)]
         others = [need.seconds(cost.estimate or 0.0) for name, need in needs.items() if name not in (below, above)]
         leads = not any(_is_below(other, own) for other in others for own in there)
         flips.append(Flip(scene, target, cost, below, above, leads))
     return sorted(flips, key=lambda flip: flip.cost.estimate or 0.0)
+
+
+def _cost_of_flip(more: _Need, fewer: _Need, many: float, few: float, many_share: float, few_share: float) -> float:
+    """Return the cost per sample in nanoseconds at which two samplers need the same time.
+
+    Parameters
+    ----------
+    more, fewer
+        The sampler that needs more samples, and the other one.
+    many, few
+        Their samples of a pixel.
+    many_share, few_share
+        Factors of their measured times.
+    """
+    saved = fewer.seconds_at(few, few_share) - more.seconds_at(many, many_share)
+    return saved / ((many - few) * more.pixels) * 1e9
 
 
 def _leads(one: Sequence[Row], other: Sequence[Row]) -> list[Lead]:

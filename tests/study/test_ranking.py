@@ -2,6 +2,7 @@
 
 import math
 from itertools import pairwise
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -19,11 +20,12 @@ def around(value, width):
     return Interval(value, value / width, value * width)
 
 
-def row(sampler, count, mse, time=None, scene="disk", shared=False, no_interval="", samples=None):
-    """A row; ``mse`` and ``time`` are intervals."""
+def row(sampler, count, mse, time=None, scene="disk", shared=False, no_interval="", samples=None, own=None):
+    """A row; ``mse``, ``time`` and ``own``, the time without the extra cost of samples, are intervals."""
+    times = time and SimpleNamespace(seconds=own or time)
     return Row(
         scene, sampler, count, [count], "", 2, samples or count, 100, shared, no_interval, mse, mse, OPEN, mse, OPEN,
-        None, None, None, 0.0, "exact", 0, None, time, True, "", [], None,
+        None, None, None, 0.0, "exact", 0, times, time, True, "", [], None,
     )  # fmt: skip
 
 
@@ -111,7 +113,7 @@ def test_flip_is_where_the_times_are_equal():
     assert (flip.below, flip.above, flip.leads) == ("cheap", "good", True)
     assert flip.cost.low < flip.cost.estimate < flip.cost.high
     # The same flip if a part of the cost is in the times already.
-    dearer = [row(r.sampler, r.count, r.mse, later(r.time, 2e-9 * r.samples)) for r in CHEAP + GOOD]
+    dearer = [row(r.sampler, r.count, r.mse, later(r.time, 2e-9 * r.samples), own=r.time) for r in CHEAP + GOOD]
     (again,) = rank(dearer, 0.02, 2.0).flips
     assert again.cost.estimate == pytest.approx(flip.cost.estimate, rel=1e-6)
     assert again.cost.high == pytest.approx(flip.cost.high, rel=1e-6)
